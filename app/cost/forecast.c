@@ -10,7 +10,8 @@
 enum {
     RACES = 2,      // How often rows are usually timed again (race in advice.c).
     RACED_ROWS = 4, // Usual number of rows that are timed again each time.
-    GO_ROWS = 12    // Usual number of combinations that are measured in a go (best.c).
+    GOES = 4,       // Usual number of goes in which best combinations are measured (best.c).
+    GO_ROWS = 8     // Usual number of combinations that are measured in a go.
 };
 
 // These values stand in for measurements that have not been made yet.
@@ -67,7 +68,8 @@ static double predicting_s(const DipCostContext *cost, DipCostPhase phase) {
     case DIP_COST_PHASE_BEST_TIMES:
         return go_times_s(cost);
     case DIP_COST_PHASE_MORE_BEST:
-        return (dip_cost_most_goes(&cost->report->options) - 1 - forecast->goes) *
+        return fmax(fmin(GOES, dip_cost_most_goes(&cost->report->options)) - 1 - forecast->goes,
+                    0.0) *
                (go_errors_s(cost) + go_times_s(cost));
     default:
         return 0.0;

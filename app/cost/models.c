@@ -1,22 +1,24 @@
-// Fits models of time and FLIP to the measured combinations, and predicts the others. A prediction
-// is the value of a model, corrected by what the model misses at measured combinations that are
-// alike.
+// Predicts combinations from those that were measured. Their times are those of a model of work
+// (fit.h), corrected by what it misses at combinations that are alike. Their FLIP comes from that
+// of all measured combinations alone, the more alike the more (process.h).
 #include "app/cost/steps.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// The likeness of two combinations is this number to the power of the number of settings in which
-// they differ. This value and the next one were chosen on the made-up machines of
-// tests/app/cost/test_best.c.
-static const double alike = 0.5;
+// What a model of work misses is alike at combinations that are alike: its covariance is this
+// number to the power of their distance, plus the variance of what each misses of its own.
+static const double alike_time = 0.6, own_time = 0.3;
 
-// What a model misses at a combination has two parts: one that alike combinations share, and one of
-// its own. This is the variance of the part of its own, divided by that of the shared part.
-static const double own_variance = 0.3;
+// The logarithm of FLIP has a mean that all combinations share, and differs from it nearly as the
+// sum of what each setting does. Both follow from a covariance that falls slowly with the distance.
+// `spread` is the standard deviation at which combinations really lie from their predictions over
+// that which the process expects. These were chosen on recorded pictures of torture, and confirmed
+// on those of the other scenes of tests/app/cost/test_best.c (docs/cost-methods.md).
+static const double common_flip = 1.0, alike_flip = 0.96, own_flip = 1e-5, spread = 1.5;
 
-// Number of iterations that solve the equations for the shares, to 5 % of a miss or better.
-enum { SWEEPS = 200 };
+// FLIP below this is as good as none.
+static const double least_flip = 1e-6;
 
 static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_ROWS]) {
     int count = 0;
@@ -44,39 +46,54 @@ static double log_ratio(double measured, double predicted) {
     return measured > 0.0 && predicted > 0.0 ? log(measured / predicted) : 0.0;
 }
 
-// Writes what the models alone miss at a row, as log(measured / predicted) of each value.
-static void find_misses(const DipCostReport *report, const DipCostModels *models, int row,
-                        double misses[DIP_COST_PREDICTED]) {
-    const DipCostRow *r = &report->rows[row];
-    const double ms = dip_cost_model_value(&models->times, r->counters, &r->quality);
-    const double flip = dip_cost_model_value(&models->errors, r->counters, &r->quality);
-    misses[DIP_COST_PREDICTED_MS] = log_ratio(r->time.mean_ms.value, ms);
-    misses[DIP_COST_PREDICTED_P95] = log_ratio(r->time.p95_ms.value, models->p95 * ms);
-    misses[DIP_COST_PREDICTED_FLIP] = log_ratio(dip_cost_row_metrics(report, row, 0).flip, flip);
+static double log_flip(double flip) {
+    return log(fmax(flip, least_flip));
 }
 
-// Solves (K + own_variance I) a = misses for the shares a of all corrections, by Gauss-Seidel
-// iterations. The matrix K has the likeness of each two measured combinations, and I is the unit
-// matrix, so the sum is positive definite.
-static bool solve(const DipCostModels *models, double (*misses)[DIP_COST_PREDICTED]) {
+// Writes what is known at the combinations, for each predicted value: the logarithms of what the
+// models of time miss, and of FLIP.
+static bool solve(const DipCostReport *report, DipCostModels *models, const int *rows) {
     const size_t count = (size_t)models->correction_count;
-    DipCostCorrection *list = models->corrections;
-    double *likeness = malloc((count * count + 1) * sizeof *likeness);
-    for (size_t i = 0; likeness && i < count * count; i++) {
-        likeness[i] = dip_cost_alike(&list[i / count].quality, &list[i % count].quality, ~0u);
-    }
-    for (size_t i = 0; likeness && i < SWEEPS * count; i++) {
-        const size_t at = i % count;
-        for (int value = 0; value < DIP_COST_PREDICTED; value++) {
-            double left = misses[at][value] + list[at].shares[value];
-            for (size_t k = 0; k < count; k++) {
-                left -= likeness[at * count + k] * list[k].shares[value];
-            }
-            list[at].shares[value] = left / (1.0 + own_variance);
+    double *values = calloc(2 * count + 1, sizeof *values), *shares = values + count;
+    for (int value = 0; values && value < DIP_COST_PREDICTED; value++) {
+        const bool is_flip = value == DIP_COST_PREDICTED_FLIP;
+        for (size_t i = 0; i < count; i++) {
+            const DipCostRow *r = &report->rows[rows[i]];
+            const double ms = dip_cost_model_value(&models->times, r->counters, &r->quality);
+            const double flip = dip_cost_row_metrics(report, rows[i], 0).flip;
+            values[i] = is_flip ? log_flip(flip) - models->log_flip
+                        : value == DIP_COST_PREDICTED_MS
+                            ? log_ratio(r->time.mean_ms.value, ms)
+                            : log_ratio(r->time.p95_ms.value, models->p95 * ms);
+        }
+        dip_cost_process_solve(is_flip ? &models->of_flip : &models->of_times, values, shares);
+        for (size_t i = 0; i < count; i++) {
+            models->corrections[i].shares[value] = shares[i];
+            models->flip_variance +=
+                is_flip ? spread * spread * values[i] * shares[i] / (double)count : 0.0;
         }
     }
-    free(likeness);
-    return likeness != NULL;
+    free(values);
+    return values != NULL;
+}
+
+// Makes the measured combinations known to both processes.
+static bool begin_processes(const DipCostReport *report, DipCostModels *models, const int *rows) {
+    const int count = models->correction_count;
+    int *distances = malloc(((size_t)count + 1) * sizeof *distances);
+    const bool made = dip_cost_process_begin(&models->of_times, 0.0, alike_time, own_time, count) &&
+                      dip_cost_process_begin(&models->of_flip, common_flip, alike_flip, own_flip,
+                                             count + DIP_COST_MOST_PROMISING) &&
+                      distances;
+    for (int i = 0; made && i < count; i++) {
+        models->corrections[i].quality = report->rows[rows[i]].quality;
+        dip_cost_find_distances(models, i, &models->corrections[i].quality, distances);
+        dip_cost_process_add(&models->of_times, distances);
+        dip_cost_process_add(&models->of_flip, distances);
+        models->log_flip += log_flip(dip_cost_row_metrics(report, rows[i], 0).flip) / count;
+    }
+    free(distances);
+    return made;
 }
 
 bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipError *err) {
@@ -84,68 +101,75 @@ bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipE
     const int count = list_rows(&report->predicted, rows);
     *models = (DipCostModels){
         .times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count),
-        .errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count),
         .p95 = usual_p95(report, rows, count),
         .corrections = calloc((size_t)count + 1, sizeof *models->corrections),
         .correction_count = count,
     };
-    double(*misses)[DIP_COST_PREDICTED] = calloc((size_t)count + 1, sizeof *misses);
-    bool made = models->corrections && misses;
-    for (int i = 0; made && i < count; i++) {
-        models->corrections[i].quality = report->rows[rows[i]].quality;
-        find_misses(report, models, rows[i], misses[i]);
-    }
-    made = made && solve(models, misses);
-    free(misses);
-    return made || dip_cost_out_of_memory(err);
+    return (models->corrections && begin_processes(report, models, rows) &&
+            solve(report, models, rows)) ||
+           dip_cost_out_of_memory(err);
 }
 
 void dip_cost_models_free(DipCostModels *models) {
+    dip_cost_process_free(&models->of_times);
+    dip_cost_process_free(&models->of_flip);
     free(models->corrections);
     *models = (DipCostModels){0};
 }
 
+DipCostMisses dip_cost_flip_left_out(const DipCostModels *models) {
+    const int count = models->correction_count;
+    double shares[DIP_COST_MAX_ROWS] = {0.0}, misses[DIP_COST_MAX_ROWS];
+    for (int i = 0; i < count; i++) {
+        shares[i] = models->corrections[i].shares[DIP_COST_PREDICTED_FLIP];
+    }
+    dip_cost_process_left_out(&models->of_flip, shares, misses);
+    for (int i = 0; i < count; i++) {
+        misses[i] = fabs(exp(-misses[i]) - 1.0);
+    }
+    return dip_cost_misses_of(misses, count);
+}
+
 // --- predictions ---------------------------------------------------------------------------------
 
-double dip_cost_alike(const DipQuality *a, const DipQuality *b, unsigned settings) {
-    double likeness = 1.0;
-    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        likeness *= settings >> s & 1 && a->step[s] != b->step[s] ? alike : 1.0;
+void dip_cost_find_distances(const DipCostModels *models, int count, const DipQuality *quality,
+                             int *distances) {
+    for (int i = 0; i < count; i++) {
+        distances[i] = dip_cost_distance(&models->corrections[i].quality, quality, ~0u);
     }
-    return likeness;
 }
 
 void dip_cost_predict_one(const DipCostModels *models, const double *counters,
-                          const DipQuality *quality, const double *likeness,
+                          const DipQuality *quality, const int *distances,
                           double values[DIP_COST_PREDICTED]) {
-    double logs[DIP_COST_PREDICTED] = {0.0};
+    double logs[DIP_COST_PREDICTED] = {[DIP_COST_PREDICTED_FLIP] = models->log_flip};
     for (int i = 0; i < models->correction_count; i++) {
-        for (int value = 0; value < DIP_COST_PREDICTED; value++) {
-            logs[value] += likeness[i] * models->corrections[i].shares[value];
-        }
+        const double *shares = models->corrections[i].shares;
+        const double time = models->of_times.covariance[distances[i]];
+        logs[DIP_COST_PREDICTED_MS] += time * shares[DIP_COST_PREDICTED_MS];
+        logs[DIP_COST_PREDICTED_P95] += time * shares[DIP_COST_PREDICTED_P95];
+        logs[DIP_COST_PREDICTED_FLIP] +=
+            models->of_flip.covariance[distances[i]] * shares[DIP_COST_PREDICTED_FLIP];
     }
     const double ms = dip_cost_model_value(&models->times, counters, quality);
     values[DIP_COST_PREDICTED_MS] = ms * exp(logs[DIP_COST_PREDICTED_MS]);
     values[DIP_COST_PREDICTED_P95] = models->p95 * ms * exp(logs[DIP_COST_PREDICTED_P95]);
-    values[DIP_COST_PREDICTED_FLIP] = dip_cost_model_value(&models->errors, counters, quality) *
-                                      exp(logs[DIP_COST_PREDICTED_FLIP]);
+    values[DIP_COST_PREDICTED_FLIP] = exp(logs[DIP_COST_PREDICTED_FLIP]);
 }
 
 bool dip_cost_predict_others(DipCostReport *report, const DipCostModels *models, DipError *err) {
-    double *likeness = calloc((size_t)models->correction_count + 1, sizeof *likeness);
-    for (int i = 0; likeness && i < report->predicted.count; i++) {
+    int *distances = calloc((size_t)models->correction_count + 1, sizeof *distances);
+    for (int i = 0; distances && i < report->predicted.count; i++) {
         DipCostPrediction *p = &report->predicted.list[i];
         if (p->row < 0) {
             double values[DIP_COST_PREDICTED];
-            for (int k = 0; k < models->correction_count; k++) {
-                likeness[k] = dip_cost_alike(&models->corrections[k].quality, &p->quality, ~0u);
-            }
-            dip_cost_predict_one(models, p->counters, &p->quality, likeness, values);
+            dip_cost_find_distances(models, models->correction_count, &p->quality, distances);
+            dip_cost_predict_one(models, p->counters, &p->quality, distances, values);
             p->ms = values[DIP_COST_PREDICTED_MS];
             p->p95_ms = values[DIP_COST_PREDICTED_P95];
             p->flip = values[DIP_COST_PREDICTED_FLIP];
         }
     }
-    free(likeness);
-    return likeness || dip_cost_out_of_memory(err);
+    free(distances);
+    return distances || dip_cost_out_of_memory(err);
 }

@@ -93,8 +93,6 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     }
     dip_cost_scale_counters(report);
     predicted->times_left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
-    predicted->errors_left_out =
-        dip_cost_model_leave_one_out(report, DIP_COST_FLIP_ERROR, rows, count);
     for (int i = 0; i < count; i++) {
         DipCostPrediction *p = &predicted->list[chosen[i]];
         p->ms = dip_cost_ms(report, p->row);

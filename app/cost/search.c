@@ -19,23 +19,24 @@ typedef struct Found {
     DipQuality quality;
     double ms;
     double loss; // The predicted FLIP, but at least the FLIP that the truth's noise makes.
+    double gain; // In a budget's list: what measuring it gains (dip_cost_gain).
     bool is_found;
 } Found;
 
-// What one task found: for each budget and each limit the best DIP_COST_PER_LIMIT combinations,
-// best first, and for each range of times the best one.
+// What one task found: for each budget the DIP_COST_PER_BUDGET combinations that gain most, first
+// the greatest gain, and for each range of times the best one.
 typedef struct Best {
-    Found (*limits)[DIP_COST_PER_LIMIT]; // [budget * DIP_COST_LIMITS + limit]
+    Found (*budgets)[DIP_COST_PER_BUDGET];
     Found bins[BINS];
-    double *likeness; // [group][correction]: see try_groups.
+    int *distances; // [group][correction]: see try_groups.
 } Best;
 
 // The options of one group of settings (combinations.h): the baseline, and the combinations that
 // differ from it in this group alone.
 typedef struct Options {
     const DipCostPrediction **list;
-    // [option][correction]: likeness of an option and a measured combination in this group.
-    double *alike;
+    // [option][correction]: distance of an option and a measured combination in this group.
+    int *apart;
     int count;
 } Options;
 
@@ -44,6 +45,7 @@ typedef struct Search {
     const DipCostModels *models;
     Options groups[DIP_WORK_GROUPS];
     DipWorkCorners corners;
+    DipCostAim aims[DIP_COST_MAX_BUDGETS];
     double floor_flip;
     double base_ms;
     Best *tasks; // [option of group 0]
@@ -54,25 +56,52 @@ static bool is_better(const Found *a, const Found *b) {
            (a->loss == b->loss && a->ms < b->ms); // NOLINT: exactly equal losses are meant.
 }
 
-// Puts the combination into a list of the best ones, if it is one of them.
-static void insert(Found list[DIP_COST_PER_LIMIT], const Found *found) {
-    int at = DIP_COST_PER_LIMIT;
-    while (at > 0 && is_better(found, &list[at - 1])) {
+// Puts the combination into a budget's list, if it gains more than one there.
+static void insert(Found list[DIP_COST_PER_BUDGET], const Found *found) {
+    int at = DIP_COST_PER_BUDGET;
+    while (at > 0 && (!list[at - 1].is_found || found->gain > list[at - 1].gain)) {
         at--;
-        if (at < DIP_COST_PER_LIMIT - 1) {
+        if (at < DIP_COST_PER_BUDGET - 1) {
             list[at + 1] = list[at];
         }
         list[at] = *found;
     }
 }
 
-// Puts the combination into the list of each limit that it keeps, and into its bin, if it is one of
-// the best there. `ms` is its mean time if budgets limit the mean, otherwise its 95th percentile.
-static void keep(const Search *search, Best *best, const Found *found, double ms) {
-    const int budgets = search->report->options.budget_count;
-    for (int i = 0; i < budgets * DIP_COST_LIMITS; i++) {
-        if (ms <= dip_cost_limit_ms(search->report, i / DIP_COST_LIMITS, i % DIP_COST_LIMITS)) {
-            insert(best->limits[i], found);
+// The variance of the logarithm of FLIP, and an upper bound of it: what the nearest measured
+// combination alone leaves.
+static double variance_of(const DipCostModels *models, const int *distances) {
+    return models->flip_variance * dip_cost_process_variance(&models->of_flip, distances);
+}
+
+static double most_variance(const DipCostModels *models, const int *distances) {
+    const double *covariance = models->of_flip.covariance;
+    double most = 0.0;
+    for (int c = 0; c < models->correction_count; c++) {
+        most = fmax(most, covariance[distances[c]]);
+    }
+    return models->flip_variance *
+           (covariance[0] - most * most / (covariance[0] + models->of_flip.own));
+}
+
+// Puts the combination into the list of each budget for which it gains much, and into its bin, if
+// it is the best there. `ms` is its mean time if budgets limit the mean, otherwise its 95th
+// percentile. The exact variance takes long, so it is computed only if the bound would do.
+static void keep(const Search *search, Best *best, const Found *found, double ms, double flip,
+                 const int *distances) {
+    const double bound = sqrt(most_variance(search->models, distances));
+    double error = NAN;
+    for (int b = 0; b < search->report->options.budget_count; b++) {
+        const Found *last = &best->budgets[b][DIP_COST_PER_BUDGET - 1];
+        const double least =
+            last->is_found ? fmax(last->gain, DIP_COST_LEAST_GAIN) : DIP_COST_LEAST_GAIN;
+        if (dip_cost_gain(&search->aims[b], ms, flip, bound) >= least) {
+            Found of_budget = *found;
+            error = isnan(error) ? sqrt(variance_of(search->models, distances)) : error;
+            of_budget.gain = dip_cost_gain(&search->aims[b], ms, flip, error);
+            if (of_budget.gain >= least) {
+                insert(best->budgets[b], &of_budget);
+            }
         }
     }
     const int bin = MIDDLE_BIN + (int)floor(log(found->ms / search->base_ms) / bin_width);
@@ -82,24 +111,24 @@ static void keep(const Search *search, Best *best, const Found *found, double ms
     }
 }
 
-static bool is_measured(const Search *search, const double *likeness) {
+static bool is_measured(const Search *search, const int *distances) {
     bool measured = false;
     for (int c = 0; c < search->models->correction_count && !measured; c++) {
-        measured = likeness[c] >= 1.0;
+        measured = distances[c] == 0;
     }
     return measured;
 }
 
 // Predicts a combination that is not measured yet, and keeps it if it may be worth measuring.
 static void predict(const Search *search, Best *best, const DipWorkSum *sum,
-                    const DipQuality *quality, const double *likeness) {
+                    const DipQuality *quality, const int *distances) {
     double counters[DIP_COST_COUNTER_COUNT];
-    if (is_measured(search, likeness)) {
+    if (is_measured(search, distances)) {
         return;
     }
     dip_work_end(sum, quality, counters);
     double values[DIP_COST_PREDICTED];
-    dip_cost_predict_one(search->models, counters, quality, likeness, values);
+    dip_cost_predict_one(search->models, counters, quality, distances, values);
     const Found found = {
         .quality = *quality,
         .ms = values[DIP_COST_PREDICTED_MS],
@@ -108,28 +137,29 @@ static void predict(const Search *search, Best *best, const DipWorkSum *sum,
     };
     if (found.ms > 0.0) {
         const bool is_mean = search->report->options.budget_of == DIP_TIME_MEAN;
-        keep(search, best, &found, is_mean ? found.ms : values[DIP_COST_PREDICTED_P95]);
+        keep(search, best, &found, is_mean ? found.ms : values[DIP_COST_PREDICTED_P95],
+             values[DIP_COST_PREDICTED_FLIP], distances);
     }
 }
 
-// Computes the likeness of the tried combination and each measured one in the settings of all
-// groups up to this one. `likeness` holds their likeness in the groups before this one, one value
-// for each measured combination, and the results are written behind these values.
-static void compare(const Search *search, const Options *options, int option, double *likeness) {
+// Computes the distance of the tried combination to each measured one in the settings of all groups
+// up to this one. `distances` holds the distances in the groups before this one, one for each
+// measured combination, and the results are written behind them.
+static void compare(const Search *search, const Options *options, int option, int *distances) {
     const int count = search->models->correction_count;
-    const double *alike = options->alike + (size_t)option * (size_t)count;
+    const int *apart = options->apart + (size_t)option * (size_t)count;
     for (int c = 0; c < count; c++) {
-        likeness[count + c] = likeness[c] * alike[c];
+        distances[count + c] = distances[c] + apart[c];
     }
 }
 
-// Tries all options of this group, each with all options of the groups after it. `likeness` holds
-// the likeness of the tried combination and each measured one in the settings of the groups before
+// Tries all options of this group, each with all options of the groups after it. `distances`
+// holds those of the tried combination to each measured one in the settings of the groups before
 // this one (compare), and has room behind for the same of each group from this one on.
 static void try_groups(const Search *search, Best *best, int group, const DipWorkSum *sum,
-                       const DipQuality *quality, double *likeness) {
+                       const DipQuality *quality, int *distances) {
     if (group == DIP_WORK_GROUPS) {
-        predict(search, best, sum, quality, likeness);
+        predict(search, best, sum, quality, distances);
         return;
     }
     const Options *options = &search->groups[group];
@@ -141,9 +171,9 @@ static void try_groups(const Search *search, Best *best, int group, const DipWor
         if (i > 0) {
             dip_work_add(&more, &option->quality, option->counters);
         }
-        compare(search, options, i, likeness);
+        compare(search, options, i, distances);
         try_groups(search, best, group + 1, &more, &with,
-                   likeness + search->models->correction_count);
+                   distances + search->models->correction_count);
     }
 }
 
@@ -157,11 +187,11 @@ static void run_task(void *context, int index, int worker) {
     sum.corners = &search->corners;
     dip_work_add(&sum, &samples->quality, samples->counters);
     for (int c = 0; c < search->models->correction_count; c++) {
-        best->likeness[c] = 1.0;
+        best->distances[c] = 0;
     }
-    compare(search, &search->groups[0], index, best->likeness);
+    compare(search, &search->groups[0], index, best->distances);
     try_groups(search, best, 1, &sum, &samples->quality,
-               best->likeness + search->models->correction_count);
+               best->distances + search->models->correction_count);
 }
 
 // --- what a search begins and ends with ----------------------------------------------------------
@@ -208,18 +238,18 @@ static void add_found(DipCostReport *report, const Found *found) {
     }
 }
 
-// Joins what all tasks found, and adds it to the predicted combinations: first the best of each
-// limit, and then, from fast bins to slow ones, the best of each bin whose FLIP is at least 1 %
-// below that of the last one added.
+// Joins what all tasks found, and adds it to the predicted combinations: first those that gain most
+// for each budget, and then, from fast bins to slow ones, the best of each bin whose FLIP is at
+// least 1 % below that of the last one added.
 static void end_search(const Search *search, DipCostReport *report) {
     Best *all = &search->tasks[0];
-    const int limits = report->options.budget_count * DIP_COST_LIMITS;
+    const int places = report->options.budget_count * DIP_COST_PER_BUDGET;
     for (int t = 1; t < search->groups[0].count; t++) {
-        for (int i = 0; i < limits * DIP_COST_PER_LIMIT; i++) {
-            const int limit = i / DIP_COST_PER_LIMIT;
-            const Found *found = &search->tasks[t].limits[limit][i % DIP_COST_PER_LIMIT];
+        for (int i = 0; i < places; i++) {
+            const int budget = i / DIP_COST_PER_BUDGET;
+            const Found *found = &search->tasks[t].budgets[budget][i % DIP_COST_PER_BUDGET];
             if (found->is_found) {
-                insert(all->limits[limit], found);
+                insert(all->budgets[budget], found);
             }
         }
         for (int b = 0; b < BINS; b++) {
@@ -229,8 +259,8 @@ static void end_search(const Search *search, DipCostReport *report) {
             }
         }
     }
-    for (int i = 0; i < limits * DIP_COST_PER_LIMIT; i++) {
-        add_found(report, &all->limits[i / DIP_COST_PER_LIMIT][i % DIP_COST_PER_LIMIT]);
+    for (int i = 0; i < places; i++) {
+        add_found(report, &all->budgets[i / DIP_COST_PER_BUDGET][i % DIP_COST_PER_BUDGET]);
     }
     double least = INFINITY;
     for (int b = 0; b < BINS; b++) {
@@ -244,53 +274,54 @@ static void end_search(const Search *search, DipCostReport *report) {
 
 // What a search allocates.
 typedef struct Room {
-    const DipCostPrediction **options;  // [group][option]
-    double *alike;                      // [group][option][correction]
-    Best *tasks;                        // [option of group 0]
-    Found (*found)[DIP_COST_PER_LIMIT]; // [task][budget][limit]
-    double *likeness; // [task][group][correction]: before the first group, and after each.
+    const DipCostPrediction **options;   // [group][option]
+    int *apart;                          // [group][option][correction]
+    Best *tasks;                         // [option of group 0]
+    Found (*found)[DIP_COST_PER_BUDGET]; // [task][budget]
+    int *distances; // [task][group][correction]: before the first group, and after each.
 } Room;
 
 static void free_room(Room *room) {
     free(room->options);
-    free(room->alike);
+    free(room->apart);
     free(room->tasks);
     free(room->found);
-    free(room->likeness);
+    free(room->distances);
 }
 
-// Computes the likeness of each option and each measured combination in the option's group.
+// Computes the distance of each option and each measured combination in the option's group.
 static bool compare_options(Search *search, Room *room) {
     const size_t count = (size_t)search->models->correction_count;
     size_t options = 0;
     for (int g = 0; g < DIP_WORK_GROUPS; g++) {
         options += (size_t)search->groups[g].count;
     }
-    double *alike = room->alike = malloc((options * count + 1) * sizeof *alike);
-    for (int g = 0; alike && g < DIP_WORK_GROUPS; g++) {
-        search->groups[g].alike = alike;
+    int *apart = room->apart = malloc((options * count + 1) * sizeof *apart);
+    for (int g = 0; apart && g < DIP_WORK_GROUPS; g++) {
+        search->groups[g].apart = apart;
         for (int i = 0; i < search->groups[g].count; i++) {
             for (size_t c = 0; c < count; c++) {
-                *alike++ = dip_cost_alike(&search->models->corrections[c].quality,
-                                          &search->groups[g].list[i]->quality, dip_work_group(g));
+                *apart++ =
+                    dip_cost_distance(&search->models->corrections[c].quality,
+                                      &search->groups[g].list[i]->quality, dip_work_group(g));
             }
         }
     }
-    return room->alike != NULL;
+    return room->apart != NULL;
 }
 
 // Makes a task for each option of group 0.
 static bool make_tasks(Search *search, Room *room) {
-    const size_t limits = (size_t)search->report->options.budget_count * DIP_COST_LIMITS;
-    const size_t likenesses = (size_t)search->models->correction_count * (DIP_WORK_GROUPS + 1);
+    const size_t budgets = (size_t)search->report->options.budget_count;
+    const size_t distances = (size_t)search->models->correction_count * (DIP_WORK_GROUPS + 1);
     const size_t tasks = (size_t)search->groups[0].count;
     search->tasks = room->tasks = calloc(tasks, sizeof *room->tasks);
-    room->found = calloc(tasks * limits + 1, sizeof *room->found);
-    room->likeness = malloc((tasks * likenesses + 1) * sizeof *room->likeness);
-    const bool made = room->tasks && room->found && room->likeness;
+    room->found = calloc(tasks * budgets + 1, sizeof *room->found);
+    room->distances = malloc((tasks * distances + 1) * sizeof *room->distances);
+    const bool made = room->tasks && room->found && room->distances;
     for (size_t t = 0; made && t < tasks; t++) {
-        search->tasks[t].limits = room->found + t * limits;
-        search->tasks[t].likeness = room->likeness + t * likenesses;
+        search->tasks[t].budgets = room->found + t * budgets;
+        search->tasks[t].distances = room->distances + t * distances;
     }
     return made;
 }
@@ -302,6 +333,9 @@ bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *
         .report = report, .models = models, .floor_flip = dip_cost_floor_flip(report, 0)};
     Room room = {.options = calloc(count * DIP_WORK_GROUPS + 1, sizeof *room.options)};
     bool made = room.options != NULL;
+    for (int b = 0; b < report->options.budget_count; b++) {
+        search.aims[b] = dip_cost_aim(report, b);
+    }
     if (made && list_options(&search, room.options)) {
         const DipCostPrediction *base = search.groups[0].list[0];
         search.base_ms = dip_cost_model_value(&models->times, base->counters, &base->quality);

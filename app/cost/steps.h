@@ -5,6 +5,7 @@
 #define DIP_APP_COST_STEPS_H
 
 #include "app/cost/context.h"
+#include "app/cost/process.h"
 #include "app/report/fit.h"
 
 // Finds out with fewer than a hundred frames how busy other programs keep the machine: times the
@@ -148,19 +149,20 @@ enum {
     DIP_COST_PREDICTED // Number of values.
 };
 
-// What one measured combination adds to the predictions of others. For each predicted value, its
-// share, times the likeness of the two combinations (dip_cost_alike), is added to the logarithm.
+// A measured combination, from which others are predicted (process.h): its share in each value.
 typedef struct DipCostCorrection {
     DipQuality quality;
     double shares[DIP_COST_PREDICTED];
 } DipCostCorrection;
 
-// The models, which are fitted to the combinations that have a row, and corrections for what the
-// models miss at these combinations.
+// What the combinations that have a row tell about all others.
 typedef struct DipCostModels {
     DipCostModel times;
-    DipCostModel errors;
-    double p95; // The usual ratio of the 95th percentile of the frames' times to their mean.
+    double p95;      // The usual ratio of the 95th percentile of the frames' times to their mean.
+    double log_flip; // Mean of the logarithms of FLIP.
+    double flip_variance;           // The variance of a logarithm of FLIP over that of the process.
+    DipCostProcess of_times;        // Of the logarithms of what the model of times misses.
+    DipCostProcess of_flip;         // Of the logarithms of FLIP.
     DipCostCorrection *corrections; // Owned.
     int correction_count;
 } DipCostModels;
@@ -169,44 +171,58 @@ typedef struct DipCostModels {
 bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipError *err);
 void dip_cost_models_free(DipCostModels *models);
 
-// Returns the likeness of two combinations in the settings of a mask (bit s for setting s): 1 if
-// all of these settings are the same, and half as much for each setting that differs. If masks
-// share no setting, the likeness in all of their settings is the product of the likenesses.
-double dip_cost_alike(const DipQuality *a, const DipQuality *b, unsigned settings);
+// Summarises how the FLIP of each measured combination is predicted from all others.
+DipCostMisses dip_cost_flip_left_out(const DipCostModels *models);
 
-// Predicts a combination with these counters: the models' values, times exp(c). The correction c of
-// a value is the sum of the shares of all measured combinations, each times its likeness to this
-// one, likeness[correction]. This is the mean of a Gaussian process whose covariance is the
-// likeness (Rasmussen and Williams 2006, eq. 2.25).
+// Writes the distances (process.h) of a combination to the first `count` measured ones.
+void dip_cost_find_distances(const DipCostModels *models, int count, const DipQuality *quality,
+                             int *distances);
+
+// Predicts a combination with these counters and these distances to all measured ones. Its time is
+// the model's, corrected by what the model misses at others; its FLIP is that of the process.
 void dip_cost_predict_one(const DipCostModels *models, const double *counters,
-                          const DipQuality *quality, const double *likeness,
+                          const DipQuality *quality, const int *distances,
                           double values[DIP_COST_PREDICTED]);
 
 // Predicts every combination of report->predicted that has no row. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_predict_others(DipCostReport *report, const DipCostModels *models, DipError *err);
 
-// For each budget, there are two limits of the predicted time, up to which combinations may be
-// measured. Let m be the relative miss that nine of ten predictions of times have not exceeded so
-// far, but at least 2 % and at most 25 %. Up to budget / (1 + m), a combination nearly surely fits
-// the budget. Up to budget * (1 + m), it may.
-enum { DIP_COST_LIMIT_SURE, DIP_COST_LIMIT_MAY, DIP_COST_LIMITS };
-double dip_cost_limit_ms(const DipCostReport *report, int budget, int limit);
+// What a combination that is measured for a budget may gain.
+typedef struct DipCostAim {
+    double budget_ms;
+    double loss;       // FLIP of the combination that is advised now, or the greatest measured one.
+    double floor;      // The least loss: the FLIP that the noise of the truth makes.
+    double time_error; // Standard deviation of the logarithms of times from their predictions.
+} DipCostAim;
 
-// Predicts all combinations of the combined settings that are not measured, and adds the best to
-// report->predicted, as far as there is room. These are, for each limit of each budget, the
-// DIP_COST_PER_LIMIT combinations of least FLIP, and those on a Pareto front. This front has at
-// most one combination for each 2 % of time, and the FLIP of each is at least 1 % below that of the
-// one before. The work of combinations is composed from those of report->predicted that were
-// counted. Fails with DIP_ERROR_MEMORY.
-enum { DIP_COST_PER_LIMIT = 8 };
+DipCostAim dip_cost_aim(const DipCostReport *report, int budget);
+
+// Returns by what share measuring a combination probably lowers the FLIP that is advised: the
+// expected improvement (Jones, Schonlau and Welch 1998) times the probability that it fits. `ms` is
+// its predicted time, `flip` its predicted FLIP, and `error` the standard deviation of the
+// logarithm of FLIP.
+double dip_cost_gain(const DipCostAim *aim, double ms, double flip, double error);
+
+// No combination that gains less than this is measured.
+#define DIP_COST_LEAST_GAIN 0.003
+
+// Predicts all combinations of the combined settings, and adds the best to report->predicted. These
+// are, for each budget, the DIP_COST_PER_BUDGET combinations that gain most, and those on a Pareto
+// front. This front has at most one combination for each 2 % of time, and the FLIP of each is at
+// least 1 % below that of the one before. The work of combinations is composed from those of
+// report->predicted that were counted. Fails with DIP_ERROR_MEMORY.
+enum { DIP_COST_PER_BUDGET = 64 };
 bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *models,
                      DipError *err);
 
-// Lists the combinations that should be measured and have no row yet: for each limit of each budget
-// some of least FLIP, and some on the Pareto front of predicted or measured time and FLIP
-// (dip_front, choice.h). Writes their indices in report->predicted to `list`. Returns their number,
-// at most `most`, or -1 and fills *err.
-int dip_cost_list_promising(const DipCostReport *report, int most, int *list, DipError *err);
+// Lists the combinations that should be measured and have no row yet. For each budget these are
+// some that gain most, one after another: each that is listed makes the FLIP of those that are
+// alike less uncertain, and so is added to models->of_flip. If `front` is true, some on the Pareto
+// front of predicted or measured time and FLIP (dip_front, choice.h) are added. Writes their
+// indices in report->predicted to `list`. Returns their number, or -1 and fills *err.
+enum { DIP_COST_MOST_PROMISING = 24 };
+int dip_cost_list_promising(const DipCostReport *report, DipCostModels *models, bool front,
+                            int list[DIP_COST_MOST_PROMISING], DipError *err);
 
 // Adds a row for each listed combination that has none. `list` holds indices in report->predicted.
 // Writes the rows of all listed combinations to `rows`. Fills *err if it returns false.

@@ -1,9 +1,12 @@
-// Tests the search for the best settings on made-up machines, whose times and errors are known for
-// every combination. The models of work and of FLIP are wrong there by several per cent. The
-// combinations that are measured and advised are compared with the best of all.
+// Tests the search for the best settings on pictures that were really drawn: the FLIP of all
+// combinations of recorded_space.h was recorded in several scenes (record_flip.c). Times are made
+// up, and the models of work are wrong by several per cent. So the best combination within a budget
+// is known, and those that the search measures and advises are compared with it.
 #include "app/cost/steps.h"
 #include "app/report/combinations.h"
 #include "renderer/catalogue/random.h"
+#include "recorded_space.h"
+#include "recorded_scenes.inc"
 
 #include <math.h>
 #include <setjmp.h>
@@ -18,15 +21,14 @@
 
 #define BIT(NAME) (1u << DIP_SETTING_##NAME)
 
-enum { MOST = 1 << 16, MACHINES = 24 };
+enum { MOST = 1 << 13, BUDGETS = 6, SCENES = sizeof recorded_scenes / sizeof *recorded_scenes };
 
-// Bounds that the search kept on six other draws of 40 machines each: there, 75 to 88 % were good,
-// and the means were .005 to .019. A search with one go has 50 to 55 % good ones and .026 to .033.
-static const double least_good = 0.7;
-static const double most_mean = 0.02;
+// On 60 other draws, 58 cases were good, the mean was .0024, and 25 combinations were measured for
+// the budget (and 5 for the Pareto front). The search before this one had 54, .0048 and 36 in all.
+static const double least_good = 0.9, most_mean = 0.004, most_measured = 32.0;
 
-static const unsigned combined = BIT(AA) | BIT(AAA) | BIT(ASD) | BIT(AF) | BIT(MIPLOD) |
-                                 BIT(SCALE) | BIT(UPSCALE) | BIT(SHADOWS);
+static const unsigned combined = BIT(AA) | BIT(TAA) | BIT(AAA) | BIT(AF) | BIT(AAF) | BIT(OPT) |
+                                 BIT(MIPLOD) | BIT(SCALE) | BIT(UPSCALE) | BIT(POST) | BIT(SHARPEN);
 
 // What is true of each combination.
 typedef struct True {
@@ -53,43 +55,20 @@ static void make_work(const DipQuality *quality, double *counters) {
     const uint8_t *step = quality->step;
     const double scale = dip_quality_scale(quality);
     const double samples = dip_quality_sample_count(quality);
+    const double shaded = dip_quality_groups_shade_all(quality) ? samples : 1.0;
     const double probes = 1.0 + 0.5 * step[DIP_SETTING_AF];
     memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
     counters[DIP_COST_COUNTER_triangles_in] = 2e4;
     counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
-    counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale;
+    counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale * shaded;
     counters[DIP_COST_COUNTER_fragments_clip_tested] =
         4e4 * scale * scale * (1.0 + step[DIP_SETTING_AAA]);
-    counters[DIP_COST_COUNTER_texture_probes] = 3e5 * scale * scale * probes;
+    counters[DIP_COST_COUNTER_texture_probes] = 3e5 * scale * scale * shaded * probes;
     counters[DIP_COST_COUNTER_texels_fetched] =
-        2e6 * scale * scale * probes * (1.0 + 0.1 * step[DIP_SETTING_MIPLOD]);
+        2e6 * scale * scale * shaded * probes * (1.0 + 0.1 * step[DIP_SETTING_MIPLOD]);
     counters[DIP_COST_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
     counters[DIP_COST_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
 }
-
-// The usual prices of FLIP. Terms that are not listed have none.
-static const struct {
-    const char *term;
-    double price;
-} flip_prices[] = {
-    {"picture", 0.03},
-    {"one sample", 0.012},
-    {"per sample", 0.015},
-    {"several samples, per group", 0.012},
-    {"one probe", 0.006},
-    {"per probe", 0.012},
-    {"miplod=quality", 0.01},
-    {"miplod=performance", 0.01},
-    {"miplod=high-performance", 0.01},
-    {"miplod=sharp", -0.003},
-    {"miplod=sharper", 0.004},
-    {"scale above 1, per step", -0.03},
-    {"scale below 1, bilinear", 0.05},
-    {"scale below 1, bicubic", 0.045},
-    {"scale below 1, EASU", 0.04},
-    {"shadows", -0.004},
-    {"shadows, per texel", 0.002},
-};
 
 // A number of the machine's between two bounds for a part's term. It depends on the term's name and
 // not on its place, so that new terms leave the machines as they were.
@@ -101,23 +80,14 @@ static double draw_for(uint64_t seed, int part, int term, double least, double m
     return random_real(&random, least, most);
 }
 
-static DipCostModels make_models(uint64_t seed) {
-    DipCostModels models = {.times = {.what = DIP_COST_TIME, .rows = 1},
-                            .errors = {.what = DIP_COST_FLIP_ERROR, .rows = 1}};
+static DipCostModel make_model(uint64_t seed) {
+    DipCostModel times = {.what = DIP_COST_TIME, .rows = 1};
     for (int part = 0; part < DIP_COST_PART_FLIP; part++) {
         for (int t = 0; t < dip_cost_term_count(part); t++) {
-            models.times.prices[part][t] = draw_for(seed, part, t, 0.0, 2e-6);
+            times.prices[part][t] = draw_for(seed, part, t, 0.0, 2e-6);
         }
     }
-    double *prices = models.errors.prices[DIP_COST_PART_FLIP];
-    for (int t = 0; t < dip_cost_term_count(DIP_COST_PART_FLIP); t++) {
-        for (size_t i = 0; i < sizeof flip_prices / sizeof *flip_prices; i++) {
-            if (strcmp(dip_cost_term_name(DIP_COST_PART_FLIP, t), flip_prices[i].term) == 0) {
-                prices[t] = flip_prices[i].price * draw_for(seed, DIP_COST_PART_FLIP, t, 0.5, 1.5);
-            }
-        }
-    }
-    return models;
+    return times;
 }
 
 // A normal variable that depends on nothing but the seed.
@@ -164,7 +134,7 @@ static const double *find_listed(const void *context, const DipQuality *quality)
 }
 
 // `miss` is the standard deviation by which the models of work miss times.
-static void make_true(Machine *machine, const DipCostModels *models, True *is, double miss) {
+static void make_true(Machine *machine, const DipCostModel *times, True *is, double miss) {
     const DipCostReport *report = &machine->report;
     const DipQuality *base = &report->options.baseline, *quality = &is->quality;
     assert_true(dip_work_compose(find_listed, report, base, quality, is->counters));
@@ -175,13 +145,11 @@ static void make_true(Machine *machine, const DipCostModels *models, True *is, d
         dip_cost_terms(stage, is->counters, quality, amounts);
         is->stage_ms[stage] = 0.0;
         for (int t = 0; t < dip_cost_term_count(stage); t++) {
-            is->stage_ms[stage] += exp(off) * amounts[t] * models->times.prices[stage][t];
+            is->stage_ms[stage] += exp(off) * amounts[t] * times->prices[stage][t];
         }
         is->ms += is->stage_ms[stage];
     }
     is->p95_ms = 1.2 * is->ms * exp(0.01 * normal_of(own + 1));
-    is->flip = dip_cost_model_value(&models->errors, is->counters, quality) *
-               exp(0.02 * together(base, quality, machine->seed + 77) + 0.002 * normal_of(own + 2));
 }
 
 // --- measuring it --------------------------------------------------------------------------------
@@ -224,8 +192,27 @@ static bool measure(void *context, const int *rows, int count, DipError *err) {
     return dip_cost_choose(report, err);
 }
 
-static void open_machine(Machine *machine, uint64_t seed, double miss) {
-    static DipQuality list[MOST];
+// Lists what a run counts: the combinations of one option, those of two, and random ones of all.
+static void list_predictions(DipCostReport *report, const True *all, int count, uint64_t seed) {
+    DipCostPredictions *predicted = &report->predicted;
+    Random random = {seed};
+    predicted->list = calloc(DIP_COST_MAX_ROWS, sizeof *predicted->list);
+    assert_non_null(predicted->list);
+    predicted->searched = count;
+    for (int i = 0; i < count; i++) {
+        const int groups = dip_work_count_groups(&report->options.baseline, &all[i].quality);
+        const bool corner = dip_work_is_corner(&report->options.baseline, &all[i].quality);
+        if (groups <= 1 || corner || random_real(&random, 0.0, count) < 1024.0) {
+            predicted->list[predicted->count++] =
+                (DipCostPrediction){.quality = all[i].quality, .row = -1};
+        }
+    }
+    for (int i = 0; i < predicted->count; i++) {
+        make_work(&predicted->list[i].quality, predicted->list[i].counters);
+    }
+}
+
+static void open_machine(Machine *machine, const RecordedScene *scene, uint64_t seed, double miss) {
     static True all[MOST];
     DipCostReport *report = &machine->report;
     *machine = (Machine){.seed = seed * UINT64_C(0x9e3779b97f4a7c15), .all = all};
@@ -239,21 +226,21 @@ static void open_machine(Machine *machine, uint64_t seed, double miss) {
     report->rows = calloc(DIP_COST_MAX_ROWS, sizeof *report->rows);
     assert_non_null(report->rows);
     assert_true(dip_cost_report_alloc(report, NULL));
-    assert_true(dip_cost_list_predictions(report, NULL));
-    for (int i = 0; i < report->predicted.count; i++) {
-        make_work(&report->predicted.list[i].quality, report->predicted.list[i].counters);
+    for (int i = 0; i < recorded_count(); i++) {
+        const DipQuality quality = recorded_settings(i);
+        assert_true(machine->count < MOST);
+        all[machine->count].quality = quality;
+        all[machine->count++].flip = recorded_value(scene->flip, i);
     }
-    const DipCostModels models = make_models(seed);
-    machine->count = dip_cost_list_combinations(&report->options.baseline, combined, list, MOST);
-    assert_true(machine->count > DIP_COST_MAX_ROWS && machine->count <= MOST);
+    list_predictions(report, all, machine->count, seed);
+    const DipCostModel times = make_model(seed);
     for (int i = 0; i < machine->count; i++) {
-        all[i].quality = list[i];
-        make_true(machine, &models, &all[i], miss);
+        make_true(machine, &times, &all[i], miss);
     }
-    // The budget is 1.5 to 4 times the baseline's time.
+    // The budget is 1.2 to 5 times the baseline's time.
     Random random = {seed + 5};
     report->options.budgets_ms[0] =
-        random_real(&random, 1.5, 4.0) * find_true(machine, &report->options.baseline)->p95_ms;
+        random_real(&random, 1.2, 5.0) * find_true(machine, &report->options.baseline)->p95_ms;
     report->options.budget_count = 1;
 }
 
@@ -262,28 +249,31 @@ static void measure_training(Machine *machine) {
     DipCostPredictions *predicted = &report->predicted;
     int chosen[DIP_COST_MAX_ROWS], rows[DIP_COST_MAX_ROWS];
     const int count = dip_cost_training_count(combined, predicted->count);
+    for (int i = 0; i < predicted->count; i++) { // As in a run, the sweeps are measured first.
+        if (dip_work_count_groups(&report->options.baseline, &predicted->list[i].quality) <= 1) {
+            assert_true(dip_cost_add_rows(report, &i, 1, rows, NULL));
+        }
+    }
     dip_cost_drop_slow_sample(report);
     assert_true(dip_cost_choose_training(report, count, chosen, NULL));
     assert_true(dip_cost_add_rows(report, chosen, count, rows, NULL));
     assert_true(measure(machine, rows, count, NULL));
     predicted->trained = count;
     predicted->times_left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
-    predicted->errors_left_out =
-        dip_cost_model_leave_one_out(report, DIP_COST_FLIP_ERROR, rows, count);
     machine->measured = 0;
 }
 
 // Returns by what share the FLIP of the advised settings lies above that of the best ones of all
 // that fit. Adds to *measured how many combinations were measured in the search.
-static double search(uint64_t seed, double miss, int *measured) {
+static double search(const RecordedScene *scene, uint64_t seed, double miss, int *measured) {
     Machine machine;
-    open_machine(&machine, seed, miss);
+    open_machine(&machine, scene, seed, miss);
     measure_training(&machine);
     DipCostReport *report = &machine.report;
     assert_true(dip_cost_measure_best(report, NULL, measure, &machine, NULL));
     const DipCandidate *chosen = dip_cost_chosen(report, 0);
     const double budget_ms = report->options.budgets_ms[0];
-    double best = INFINITY;
+    double best = INFINITY, found = INFINITY;
     for (int i = 0; i < machine.count; i++) {
         // A measurement tells surely that it fits.
         const bool fits = 1.01 * machine.all[i].p95_ms <= budget_ms;
@@ -291,31 +281,50 @@ static double search(uint64_t seed, double miss, int *measured) {
     }
     assert_non_null(chosen);
     assert_true(find_true(&machine, &chosen->quality)->p95_ms < 1.005 * budget_ms);
-    const double share = chosen->flip / best - 1.0;
+    // The fastest of those within 1 % of the least FLIP is advised: the least one counts.
+    for (int r = 0; r < report->row_count; r++) {
+        const True *is = find_true(&machine, &report->rows[r].quality);
+        found = 1.01 * is->p95_ms <= budget_ms ? fmin(found, is->flip) : found;
+    }
+    const double share = found / best - 1.0;
     *measured += machine.measured;
     dip_cost_report_free(report);
     return share;
 }
 
-// Times are missed by 6 to 12 %. On most machines no other combination that fits the budget is
-// better than the advised one by more than 1 % FLIP. No search that measures few of them finds the
-// best on all: what two settings do together is known only where both were measured.
+// Times are missed by 6 to 12 %. In nearly all cases the search measures a combination to which no
+// other one that fits the budget is better by more than 1 % FLIP.
 static void none_that_fits_is_clearly_better(void **state) {
     (void)state;
     int good = 0, measured = 0;
     double sum = 0.0;
-    for (int i = 0; i < MACHINES; i++) {
-        const double miss = 0.06 + 0.06 * i / (MACHINES - 1);
-        const double share = search((uint64_t)i + 1, miss, &measured);
-        good += share <= DIP_CLEARLY_BETTER;
-        sum += fmax(share, 0.0);
+    const char *given = getenv("DIPTYCH_TEST_BEST"); // How many budgets, and the first one's seed.
+    int budgets = BUDGETS, first = 1;
+    if (given) {
+        sscanf(given, "%d:%d", &budgets, &first);
     }
-    print_message(
-        "none is clearly better on %d of %d machines, the advised settings have %.4f more "
-        "FLIP in the mean, %.1f combinations measured\n",
-        good, MACHINES, sum / MACHINES, (double)measured / MACHINES);
-    assert_true(good >= least_good * MACHINES);
-    assert_true(sum / MACHINES <= most_mean);
+    for (int s = 0; s < SCENES; s++) {
+        int good_here = 0, measured_here = 0;
+        double sum_here = 0.0;
+        for (int i = 0; i < budgets; i++) {
+            const double miss = 0.06 + 0.06 * i / budgets;
+            const double share =
+                search(&recorded_scenes[s], (uint64_t)(first + i + 1000 * s), miss, &measured_here);
+            good_here += share <= DIP_CLEARLY_BETTER;
+            sum_here += fmax(share, 0.0);
+        }
+        print_message("%s: %d of %d good, %.4f more FLIP in the mean, %.1f combinations measured\n",
+                      recorded_scenes[s].name, good_here, budgets, sum_here / budgets,
+                      (double)measured_here / budgets);
+        good += good_here;
+        measured += measured_here;
+        sum += sum_here;
+    }
+    const double cases = (double)budgets * SCENES;
+    print_message("all: %d of %.0f, %.4f, %.1f\n", good, cases, sum / cases, measured / cases);
+    assert_true(good >= least_good * cases);
+    assert_true(sum / cases <= most_mean);
+    assert_true(measured / cases <= most_measured);
 }
 
 int main(void) {

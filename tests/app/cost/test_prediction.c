@@ -257,10 +257,11 @@ static void leaving_one_out_does_not_promise_too_much(void **state) {
             dip_cost_model_leave_one_out(&report, DIP_COST_TIME, chosen, TRAINED);
         assert_int_equal(misses.rows, TRAINED);
         left_out += misses.median / 16.0;
-        flip_left_out +=
-            dip_cost_model_leave_one_out(&report, DIP_COST_FLIP_ERROR, chosen, TRAINED).median /
-            16.0;
         train(&report, &times, &errors);
+        DipCostModels models;
+        assert_true(dip_cost_models_of(&report, &models, NULL));
+        flip_left_out += dip_cost_flip_left_out(&models).median / 16.0;
+        dip_cost_models_free(&models);
         unseen += times.median / 16.0;
         flip_unseen += errors.median / 16.0;
         dip_cost_report_free(&report);
@@ -281,8 +282,11 @@ static void the_front_is_found(void **state) {
     report.options.budgets_ms[0] = 6.0;
     train(&report, &times, &errors);
     for (int go = 0; go < 4; go++) {
-        int list[24];
-        const int count = dip_cost_list_promising(&report, 24, list, NULL);
+        int list[DIP_COST_MOST_PROMISING];
+        DipCostModels models;
+        assert_true(dip_cost_models_of(&report, &models, NULL));
+        const int count = dip_cost_list_promising(&report, &models, true, list, NULL);
+        dip_cost_models_free(&models);
         for (int i = 0; i < count; i++) {
             assert_true(report.predicted.list[list[i]].row < 0);
             report.predicted.list[list[i]].row = list[i];
