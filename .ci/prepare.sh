@@ -4,12 +4,12 @@ TOP=$PWD
 PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetype-dev libfontconfig-dev
     fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev
     libmeshoptimizer-dev libdraco-dev g++ libwebp-dev" # The last line: packed models and pictures.
-PACKAGES_TEST="$PACKAGES_RUN git doxygen clang clang-format libcmocka-dev xvfb xauth xdotool imagemagick
+PACKAGES_TEST="$PACKAGES_RUN git doxygen clang clang-format libcmocka-dev lld xvfb xauth xdotool imagemagick
     python3 python3-cffi python3-numpy dpkg-dev file"
 # The cost report's page; one machine that acts as several.
 PACKAGES_LONG="chromium chromium-driver python3-selenium python3-pil poppler-utils parallel munge slurm-wlm"
 PACKAGES_LINT="clang-tidy cppcheck"
-PACKAGES_SANITIZERS="clang libclang-rt-dev lld llvm" # llvm: names of functions in the findings
+PACKAGES_SANITIZERS="clang libclang-rt-dev llvm" # llvm: names of functions in the findings
 
 is_installed() {
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]

@@ -1,6 +1,7 @@
 # Installs a build into a new folder. The tests of this folder source this file, with the variables
 # source and build. Then $prefix is the installed copy and $folder a folder for the test's files. If
-# build is no build but an installed copy, it serves as it is.
+# build is no build but an installed copy, it serves as it is. With the variable packed, nothing is
+# installed and $prefix is empty.
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -26,7 +27,9 @@ documented() {
     echo "$line" | sed "s|build/release|$build|g; s|\<DIR\>|$prefix|g"
 }
 
-if [ -f "$build/CMakeCache.txt" ]; then
+if [ -n "${packed:-}" ]; then
+    prefix=
+elif [ -f "$build/CMakeCache.txt" ]; then
     # The files move after they are installed: nothing in them may name the folder.
     command=$(documented install.md 'cmake --install')
     run_quietly "the build cannot be installed" sh -c "$command"

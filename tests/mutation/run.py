@@ -183,7 +183,8 @@ def judge(unchanged):
 
 
 def sanitizer():
-    """Runs the catalogue with the address and undefined-behaviour sanitizers, as ./test does."""
+    """Runs the catalogue with the address and undefined-behaviour sanitizers,
+    as ./test sanitizers does."""
     for command in (["cmake", "--preset", "asan", "-DDIP_WERROR=OFF"],
                     ["cmake", "--build", "--preset", "asan", "--target", "stability"]):
         code, output = run(command, 1800)

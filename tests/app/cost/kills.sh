@@ -132,7 +132,7 @@ cost="$diptych $square --starts 2 --rounds 8"
 kill_often "$kills"
 [ $kept -gt 0 ] || fail "no kill came after a round"
 # The courtyard has more paths, and combinations that draw the same pictures.
-cost="$diptych $options --samples 4 --starts 1 --rounds 2"
+cost="$diptych $options --places 1 --samples 4 --starts 1 --rounds 2"
 kill_often $(((kills + 9) / 10))
 
 # --- journals of other runs

@@ -17,7 +17,7 @@ measure() {
     name=$1
     shift
     "$diptych" cost --out "$name" --size 96x72 --places 2 --samples 4 --starts 2 --rounds 2 \
-        --timed 2 --pictures none --budget-ms 0.5,1,2,3,4,6,8,12 "$@" >"$name.txt" 2>&1 || {
+        --timed 1 --pictures none --budget-ms 0.5,1,2,3,4,6,8,12 "$@" >"$name.txt" 2>&1 || {
         code=$?
         cat "$name.txt"
         exit $code
