@@ -3,7 +3,7 @@
 #define DIP_APP_CLI_MEASURE_OPTIONS_H
 
 #include "app/cli/options.h"
-#include "app/measure/stats/rounds.h"
+#include "app/measure/timing/sample.h"
 
 enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = DIP_TIMED_MOST_STARTS };
 

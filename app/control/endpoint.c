@@ -38,11 +38,11 @@ ptrdiff_t dip_wire_read(const DipWire *wire, void *bytes, size_t size) {
 }
 
 ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size) {
-    if (!wire->socket && !(ready(wire->out, POLLOUT) & (POLLOUT | POLLERR))) {
+    if (!wire->sends && !(ready(wire->out, POLLOUT) & (POLLOUT | POLLERR))) {
         return 0;
     }
-    const ssize_t count = wire->socket ? send(wire->out, bytes, size, MSG_DONTWAIT | MSG_NOSIGNAL)
-                                       : write(wire->out, bytes, size);
+    const ssize_t count = wire->sends ? send(wire->out, bytes, size, MSG_DONTWAIT | MSG_NOSIGNAL)
+                                      : write(wire->out, bytes, size);
     if (count >= 0) {
         return count;
     }
@@ -66,10 +66,10 @@ void dip_wire_close(DipWire *wire) {
 
 // --- standard input and output -------------------------------------------------------------------
 
-// Opens standard output once more so that writing to it never waits. The flag O_NONBLOCK belongs to
-// an open file; setting it on the descriptor that Diptych was given would also change the file of
-// the parent process. Sockets cannot be opened again, and ordinary files need not be, so these are
-// only duplicated.
+// Opens standard output once more so that writing to it never waits. Descriptors of
+// the same open file share the flag O_NONBLOCK: if Diptych set it on the descriptor that it was
+// given, writes of the parent process would no longer wait either. Sockets cannot be opened again,
+// and ordinary files need not be, so these are only duplicated.
 static int open_output(void) {
     struct stat status;
     int output = -1;
@@ -95,8 +95,8 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
         dip_endpoint_close(endpoint);
         return false;
     }
-    if (fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode) &&
-        fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode)) {
+    wire->sends = fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode);
+    if (wire->sends && fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode)) {
         // The parent process made one socket for input and output, with socketpair. Reading uses
         // the same duplicate of the socket (open_output) as writing.
         wire->in = wire->out;
@@ -112,9 +112,10 @@ static bool refuse_path(DipErrorCode code, const char *path, const char *why, Di
     return dip_error_set(err, code, path, 0, "--control", "%s", why);
 }
 
-// Returns whether a program listens on the socket, or true if this cannot be found out.
+// Returns whether a program listens on the socket, or true if this cannot be found out. Does not
+// wait for a program that listens but accepts no clients.
 static bool is_in_use(const struct sockaddr_un *address) {
-    const int probe = socket(AF_UNIX, SOCK_STREAM, 0);
+    const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0);
     const bool refused = probe >= 0 &&
                          connect(probe, (const struct sockaddr *)address, sizeof *address) != 0 &&
                          errno == ECONNREFUSED;
@@ -193,7 +194,7 @@ bool dip_endpoint_accept(const DipEndpoint *endpoint, DipWire *wire) {
         return false;
     }
     fcntl(client, F_SETFD, FD_CLOEXEC);
-    *wire = (DipWire){client, client, true};
+    *wire = (DipWire){.in = client, .out = client, .socket = true, .sends = true};
     return true;
 }
 

@@ -14,6 +14,7 @@ typedef struct DipWire {
     int in;
     int out;
     bool socket; // True if both descriptors are the same socket.
+    bool sends;  // True if `out` is a socket.
 } DipWire;
 
 // Reads at most `size` bytes. Returns their number, 0 if there are none now, or -1 at the end of

@@ -343,13 +343,15 @@ static DipErrorCode open_code(const char *where) {
     return err.code;
 }
 
-static void leave_stale_socket(const char *file) {
+// Makes a socket with this file, and lets it listen with the shortest queue if `listens`.
+static int listen_at(const char *file, bool listens) {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
     assert_true(strlen(file) < sizeof address.sun_path);
     strcpy(address.sun_path, file);
     assert_int_equal(bind(listener, (const struct sockaddr *)&address, sizeof address), 0);
-    close(listener);
+    assert_true(!listens || listen(listener, 0) == 0);
+    return listener;
 }
 
 static void only_a_stale_socket_is_replaced(void **state) {
@@ -358,9 +360,19 @@ static void only_a_stale_socket_is_replaced(void **state) {
     // Somebody listens.
     assert_int_equal(open_code(path), DIP_ERROR_CONFLICT);
     connect_client(&client);
+    // Somebody listens and accepts nobody, and no further client may wait.
+    snprintf(file, sizeof file, "%s/busy", folder);
+    const int busy = listen_at(file, true), waiting = socket(AF_UNIX, SOCK_STREAM, 0);
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    strcpy(address.sun_path, file);
+    assert_int_equal(connect(waiting, (const struct sockaddr *)&address, sizeof address), 0);
+    assert_int_equal(open_code(file), DIP_ERROR_CONFLICT);
+    close(waiting);
+    close(busy);
+    unlink(file);
     // Nobody listens any more.
     snprintf(file, sizeof file, "%s/stale", folder);
-    leave_stale_socket(file);
+    close(listen_at(file, false));
     assert_int_equal(open_code(file), DIP_ERROR_NONE);
     assert_int_not_equal(access(file, F_OK), 0);
     // Another file.

@@ -251,6 +251,20 @@ static void check_samples(int pane, int x, int y, int count) {
     }
 }
 
+// A new picture is read again while the loupe shows, and not after it is closed.
+static void test_a_closed_loupe_reads_no_samples(void **state) {
+    (void)state;
+    for (int open = 1; open >= 0; open--) {
+        tw.state.tools.x = 200;
+        tw.state.tools.y = 150;
+        dip_tool_window_draw(&tw);
+        dip_tool_window_update(&tw);
+        tw.state.tools.open = open;
+        tw.window.versions[0] += 2;
+        assert_int_equal(dip_tool_window_update(&tw), open);
+    }
+}
+
 static void test_samples_of_all_pixels_of_the_crops_resolve_to_the_panes(void **state) {
     (void)state;
     tw.state.tools.x = 200;
@@ -339,6 +353,7 @@ int main(void) {
         IN_WINDOW(test_crops_show_the_frames_pixels),
         IN_WINDOW(test_loupe_follows_the_pointer_in_scaled_panes),
         IN_WINDOW(test_right_click_pins_and_arrows_move),
+        IN_WINDOW(test_a_closed_loupe_reads_no_samples),
         IN_WINDOW(test_samples_of_all_pixels_of_the_crops_resolve_to_the_panes),
         IN_WINDOW(test_copied_panes_share_their_samples),
         IN_WINDOW(test_moving_pictures_have_no_samples),

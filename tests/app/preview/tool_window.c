@@ -162,7 +162,8 @@ bool dip_tool_window_update(DipToolWindow *tw) {
                                  .width = tw->window.frames[0].width,
                                  .height = tw->window.frames[0].height,
                                  .copied = tw->frame.copied,
-                                 .still = tw->window.still};
+                                 .still = tw->window.still,
+                                 .loupe = dip_loupe_is_on(&tw->state.tools)};
     return dip_tools_update(tw->tools, &input);
 }
 

@@ -54,7 +54,7 @@ cat >requests.txt <<'END'
 {"id":5,"request":"quit"}
 END
 if command -v xvfb-run >which.txt && command -v timeout >which.txt; then
-    env -u WAYLAND_DISPLAY timeout 60 xvfb-run -a "$diptych" preview --model cameras.gltf --path Flying \
+    env -u WAYLAND_DISPLAY timeout 60 xvfb-run -a -n 200 "$diptych" preview --model cameras.gltf --path Flying \
         --size 64x48 --control - <requests.txt >out.txt 2>err.txt
     check "the preview lists the cameras: $(cat out.txt err.txt)" \
         grep -q '"category":"Lens","title":"Lens","available":true' out.txt
