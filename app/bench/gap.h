@@ -1,6 +1,6 @@
 // Shows how far a frame is from what the machine can do. Prints the cycles that the stages
-// geometry, raster and shading take per unit of their work, beside a floor: the fewest cycles in
-// which a core can do this work.
+// geometry, raster and shading take per unit of their work, and these cycles divided by a floor:
+// the fewest cycles in which a core can do this work.
 #ifndef DIP_APP_BENCH_GAP_H
 #define DIP_APP_BENCH_GAP_H
 

@@ -81,8 +81,8 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 
 // --- measuring -----------------------------------------------------------------------------------
 
-// Most subjects of a block besides the base (driver.h) if there is one source, as in
-// app/cost/times.c.
+// Greatest number of subjects in a block besides the base (driver.h), if one program is measured.
+// The reports of `diptych cost` have the same number (app/cost/times.c).
 enum { BLOCK_SUBJECTS = 4 };
 
 // The driver's subject i (driver.h) is combination i / source_count of source i % source_count. If

@@ -1,4 +1,4 @@
-// Makes scenes of one mesh, one material and one texture, and the wavy mesh of the relief.
+// Makes scenes of one mesh, one material and one texture, among them a relief, whose mesh is wavy.
 #include "app/bench/synthetic.h"
 
 #include "renderer/base/trig.h"
@@ -17,8 +17,8 @@ static uint32_t hash(uint32_t x, uint32_t y) {
     return h ^ h >> 15;
 }
 
-// Paints squares of 64, 16 and 4 texels in random shades, so that the larger mip levels have
-// detail.
+// Paints squares with sides of 64, 16 and 4 texels in random colours, so that mip levels 0 to 6
+// have detail.
 static void paint(uint8_t *rgba8) {
     for (uint32_t y = 0; y < TEXTURE_SIZE; y++) {
         for (uint32_t x = 0; x < TEXTURE_SIZE; x++) {

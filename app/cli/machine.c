@@ -1,4 +1,5 @@
-// Reads the machine's properties from Linux, measures its cycle, and hashes the program's file.
+// Reads the machine's properties from Linux, measures the time of a
+// processor's cycle, and hashes the program's file.
 #include "app/cli/machine.h"
 
 #include "renderer/base/clock.h"
@@ -62,7 +63,7 @@ double dip_machine_ns_per_cycle(void) {
         uint64_t addend = (uint64_t)round;
         const int64_t begin_ns = dip_clock_ns();
         for (int i = 0; i < STEPS; i++) {
-            for (int k = 0; k < PER_STEP; k++) { // unrolled
+            for (int k = 0; k < PER_STEP; k++) { // Compilers unroll this loop.
                 __asm__ volatile("" : "+r"(sum), "+r"(addend));
                 sum += addend;
             }

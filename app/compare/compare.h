@@ -1,5 +1,5 @@
 // Declares the command `diptych compare`, which measures how much two pictures differ. It can apply
-// a filter to the first one before.
+// a filter to the first picture before it compares them.
 #ifndef DIP_APP_COMPARE_COMPARE_H
 #define DIP_APP_COMPARE_COMPARE_H
 

@@ -2,8 +2,9 @@
 // reply to every line, and the events that they subscribe to. docs/embedding.md describes the
 // protocol.
 //
-// The channel reads and checks requests, and hands each of them to a function of its owner, which
-// carries it out. All functions must be called on one thread; none of them waits.
+// The channel reads and checks requests. It carries out `subscribe` and `unsubscribe` itself, and
+// hands all others to a function of its owner, which carries them out. All functions must be called
+// on one thread; none of them waits.
 #ifndef DIP_APP_CONTROL_CONTROL_H
 #define DIP_APP_CONTROL_CONTROL_H
 
@@ -25,8 +26,7 @@ typedef struct DipControlDef {
     const char *version; // The program's version, for the greeting. Borrowed.
     void *context;
     // Carries out a request, or refuses it and fills *err. Adds the fields of the reply to `reply`,
-    // an object. `attempt` counts how often this function has put off this request. The channel
-    // itself carries out `subscribe` and `unsubscribe`.
+    // an object. `attempt` counts how often this function has put off this request.
     DipControlAnswer (*carry_out)(void *context, const DipControlRequest *request, int attempt,
                                   struct cJSON *reply, DipError *err);
 } DipControlDef;

@@ -18,7 +18,9 @@ enum { DIP_CONTROL_PROTOCOL = 1 };
 
 enum {
     DIP_CONTROL_MAX_LINE_BYTES = 65536, // Longest line that is read, without its line feed.
-    DIP_CONTROL_TEXT_SIZE = 512,        // Bytes of texts, including the final 0.
+    // Bytes of `settings` and of `change`, of a file's name, and of another name or an id that is a
+    // text, each including the final 0.
+    DIP_CONTROL_TEXT_SIZE = 512,
     DIP_CONTROL_FILE_SIZE = 1024,
     DIP_CONTROL_NAME_SIZE = 64,
     DIP_CONTROL_MAX_SIZE_PX = 8192 // Largest width and height of a pane.

@@ -12,7 +12,8 @@ const char *const dip_cost_verdict_names[] = {"green", "amber", "red"};
 const DipCostLimits dip_cost_wait_limits = {0.05, 0.20};
 const DipCostLimits dip_cost_spread_limits = {0.05, 0.10};
 const DipCostLimits dip_cost_offset_limits = {0.02, 0.05};
-static const double most_disturbed = 0.25; // With a greater share, the verdict is red.
+// If a greater share of the times was disturbed, the verdict is red.
+static const double most_disturbed = 0.25;
 
 static DipCostVerdict judge(double sign, const DipCostLimits *limits) {
     return sign > limits->red     ? DIP_COST_RED

@@ -21,8 +21,9 @@ static bool keeps_side(double rounded, double value, double limit) {
     return (rounded > limit) == (value > limit);
 }
 
-// Returns the value rounded to this number of decimals: the same double that its written digits are
-// read as. If `decimals` is negative, that many digits before the point become 0.
+// Returns the value rounded to this number of decimals. The result is the double that one gets by
+// writing the rounded value and reading it again. If `decimals` is negative, that many digits
+// before the point become 0.
 static double round_to(double value, int decimals) {
     const double power = pow(10.0, abs(decimals));
     return decimals < 0 ? power * round(value / power) : round(value * power) / power;

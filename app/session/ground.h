@@ -31,9 +31,9 @@ typedef struct DipSilhouette {
 DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent);
 
 // Returns whether the scene needs a ground. It needs none if it has no width, if it has a sky or
-// water, if it is flat itself, or if surfaces of its own near its lowest point face up and cover
-// most of the rectangle below it. It also gets none if it lies very far above or below the origin,
-// or if memory runs out.
+// water, or if it is flat itself. Nor does it need one if, seen from above, surfaces that face up
+// near its lowest point cover most of its extent. It also gets none if it lies very far above or
+// below the origin, or if memory runs out.
 bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent);
 
 // A scene with a ground. Owns the ground and the arrays of `def`. Everything else that these arrays

@@ -91,8 +91,9 @@ static void blend_pixel(uint8_t *pixel, DipColour colour, unsigned alpha) {
 enum { BLOCK_BYTES = 16 };
 
 // Blends blocks of four pixels. Each byte becomes (byte * rest + colour * alpha) / 255, rounded
-// exactly, where `rest` is 255 - alpha. `share` is colour * alpha + 128, as divide_by_255 adds. No
-// sum is greater than 65407, so compilers can turn the loop into 16-bit vector code.
+// exactly, where `rest` is 255 - alpha. `share` is colour * alpha + 128; divide_by_255 adds
+// the same 128. No sum is greater than 65407, so compilers can turn the loop into 16-bit vector
+// code.
 static void blend_blocks(uint8_t *restrict bytes, size_t block_count,
                          const uint16_t share[BLOCK_BYTES], uint16_t rest) {
     for (size_t i = 0; i < block_count; ++i) {

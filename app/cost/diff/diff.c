@@ -1,5 +1,5 @@
-// Computes what comparisons of reports and of programs share: the growth of quantities, the marks
-// of rows, and notes.
+// Holds what comparisons of reports and comparisons of programs both need: computes how much each
+// quantity has grown, marks rows as slower or faster, and adds notes.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>

@@ -216,9 +216,10 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
 bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
 
 // Writes diff->cause from the times of two programs: the stage that takes most of the additional
-// time of the slower rows. With four rows or more, also names the kind of work with which the
-// additional time in this stage grows, if that is sure. In `times` and `fit`, the subject
-// 2 * row + side stands for a row on one side. Fails with DIP_ERROR_MEMORY.
+// time of the slower rows. If the comparison has at least four rows, slower or not, also
+// names the kind of work with which the additional time in this stage grows, if that is sure. In
+// `times` and `fit`, the subject 2 * row + side stands for a row on one side. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
                            DipError *err);
 
@@ -240,9 +241,10 @@ bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *c
 
 // Measures rows of a report again with another program: the rows of the report's first path whose
 // settings `arguments` lists, except the baseline. Makes a new report with the baseline and these
-// rows. It has no errors, and each row's ratio is its time / the time of the baseline in the same
-// program. Fails as dip_cost_diff_programs does, and with DIP_ERROR_MISSING if the report has no
-// times or none of these rows. On success the caller frees the new report.
+// rows. The new report has no FLIP and no other measured errors. Each row's ratio is the row's time
+// divided by the baseline's time in the same program. Fails as dip_cost_diff_programs does, and
+// with DIP_ERROR_MISSING if the report has no times or none of these rows. On success the caller
+// frees the new report.
 bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const char *program,
                                   const DipCostReport *report, DipCostReport *measured,
                                   DipError *err);

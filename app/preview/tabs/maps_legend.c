@@ -47,8 +47,8 @@ static bool count_values(const Tab *tab, int pane, double end, double counts[CHA
     return work->draws > 0;
 }
 
-// Returns the height of a bin in the chart, from 0 to 1. The bins of the FLIP map count pixels and
-// have a logarithmic scale. The bins of other maps count tiles and have a linear scale.
+// Returns the height of a bin in the chart, from 0 to 1. For the FLIP map, bins count pixels, and
+// the height is logarithmic. For other maps, bins count tiles, and the height is linear.
 static double chart_height(const Tab *tab, double count, double most) {
     return tab->tools->map == DIP_MAP_FLIP ? log(count + 1.0) / log(most + 1.0) : count / most;
 }

@@ -291,9 +291,9 @@ static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting settin
     draw_values(ui, state, setting, STEP_SIZE, head);
 }
 
-// Declares a button at the right end of *head that plays the path made to show the setting, and
-// cuts it off. Leaves it out if there is no such path, if it plays already, if a scene of the
-// gallery shows, or if the setting has no effect.
+// Declares a button that plays the camera path made to show the setting. The button is cut from the
+// right end of *head. There is no button if there is no such path, if it plays already, if a scene
+// of the gallery shows, or if the setting has no effect.
 static void declare_path(DipUi *ui, DipWindow *window, DipSetting setting, DipRect *head) {
     DipPreviewState *state = window->state;
     const int category = dip_preview_category_of(setting);
@@ -406,7 +406,8 @@ void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting,
         dip_ui_label(ui, PRICE_SIZE, dip_style_soft, DIP_ALIGN_RIGHT,
                      dip_cut_right(&rest, dip_ui_px(ui, 42)), ms);
     }
-    // Shows the whole name if the steps fit beside it.
+    // Shows the whole name if it takes at most half of the row, so that the steps mostly fit beside
+    // it.
     const DipSettingInfo *info = dip_setting_info(setting);
     const bool whole = dip_ui_text_width(ui, STEP_SIZE, info->title) <= rest.width / 2;
     dip_ui_word(ui, STEP_SIZE,

@@ -28,8 +28,9 @@ static DipUiId id_of(int control) {
 
 // --- presets and buttons -------------------------------------------------------------------------
 
-// Returns whether presets that depend on prices cannot be chosen yet, because the base has no time
-// or no error yet. Scenes of the gallery have no errors, so only the time is awaited.
+// Returns whether presets that depend on prices cannot be chosen yet, because the settings
+// that prices start from (dip_prices_base) have no time or no error. Scenes of the gallery have no
+// errors, so only the time is awaited.
 static bool presets_wait(const DipWindow *window) {
     const DipQuality base = dip_prices_base(window->prices);
     const DipPriceSum sum = dip_prices_sum(window->prices, &base);
@@ -256,7 +257,7 @@ static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double bud
 }
 
 // Draws an entry of the legend at the left side of *rest, or in the row below if it does not fit.
-// Leaves out a time that rounds to 0.0. room: the legend's first row.
+// Draws nothing if the time rounds to 0.0. room: the legend's first row.
 static void draw_entry(DipUi *ui, DipRect room, DipRect *rest, const char *name, double ms,
                        DipColour colour, bool rest_of_sum) {
     const int swatch = dip_ui_px(ui, SWATCH), gap = dip_ui_px(ui, 4);
@@ -295,8 +296,8 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 // --- the sum -------------------------------------------------------------------------------------
 
 // Writes the note beside the sum. The note says that the sum is doubtful, how far it exceeds the
-// budget, or what its 95 % interval is; it is empty if none of these applies. The last two notes
-// also say so if the sum holds for a path.
+// budget, or what its 95 % interval is; it is empty if none of these applies. If the sum
+// holds for a path, the text of the excess or of the interval says so.
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     const double budget_ms = window->state->budget_ms;
     const char *scope = dip_pane_time_scope(window, sum);
@@ -331,7 +332,7 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     rect.height = dip_ui_line_height(ui, SUM_SIZE);
     dip_ui_word(ui, size, colour, &rect, dip_ui_px(ui, 9), text);
     dip_cut_bottom(&rect, dip_ui_px(ui, 4));
-    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // The note is shown whole or not.
+    if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // The whole note fits.
         dip_ui_line(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft,
                     &(DipRect){rect.x, dip_rect_bottom(rect) - dip_ui_line_height(ui, NOTE_SIZE),
                                rect.width, 0},
@@ -348,9 +349,10 @@ static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const
 }
 
 // Declares a button that gets prices for this view, if one is needed. While live prices (prices.h)
-// are not known and time runs, the button pauses, since live prices are measured at rest. If the
-// report's prices do not hold for the panes, the button changes between the report and live prices.
-// A report of another scene needs no button, since live prices take its place by themselves.
+// are not known and time runs, the button stops time, since live prices are measured at rest. If
+// the report's prices do not hold for the panes, the button changes between the report and live
+// prices. A report of another scene needs no button, since live prices take its place by
+// themselves.
 static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect *line) {
     DipPreviewState *state = window->state;
     const DipPrices *prices = window->prices;
@@ -472,11 +474,12 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const int buttons = dip_ui_px(ui, 28), gap = dip_ui_px(ui, 4);
     const int spare = rest.height - buttons - gap - source_height(ui, window, rest.width);
     line = dip_cut_top(&rest, dip_max(0, dip_min(dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3), spare)));
-    if (line.height >= note) { // A warning needs the legend's room more than the legend does.
+    if (line.height >= note) { // Progress and warnings (source_height) come before the legend.
         line.height = note;
         draw_legend(ui, &shown, &parts, line);
     }
-    line = dip_cut_top(&rest, buttons); // The buttons may cover the legend.
+    // Where the legend has more rows than it has room for, the buttons cover the last ones.
+    line = dip_cut_top(&rest, buttons);
     line.y = dip_min(line.y, dip_rect_bottom(rect) - line.height);
     dip_setting_buttons_declare(ui, window, line);
     rest.y = dip_rect_bottom(line) + gap;

@@ -9,7 +9,7 @@
 enum {
     TEXT = 12,    // Size of letters.
     HANDLE = 18,  // Radius of the divider's handle.
-    ID_LINE = 64, // Beyond the ids of the comparisons' tab.
+    ID_LINE = 64, // Id of the divider, greater than all ids in the comparisons' tab.
 };
 
 // --- pictures ------------------------------------------------------------------------------------
@@ -93,9 +93,10 @@ void dip_compare_pictures(DipUi *ui, DipWindow *window) {
 
 // --- over the panes ------------------------------------------------------------------------------
 
-// Moves the divider to a pointer that drags with the left button or, with Shift, to the middle. A
-// drag may begin anywhere in the picture. (A drag with the right button flies the camera.) While
-// the user flies the camera, only a drag near the divider moves it.
+// While the user drags with the left button, moves the divider to the pointer, or to the middle if
+// Shift is held. A drag may begin anywhere in the picture. While the camera is free
+// (state->manual), only a drag that is near the divider moves the divider. Drags with the right
+// button fly the camera.
 static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) {
     DipToolState *tools = &window->state->tools;
     const DipRect shown = dip_compare_shown(window, DIP_PANE_CURRENT);

@@ -26,8 +26,8 @@ typedef struct DipLayout {
 
 // Returns the scale of text and controls in a window of this height in pixels. The scale is the one
 // that the display reports (display_scale), times tools->ui_scale. Unless --ui-scale is given,
-// height / 1080, rounded down to a multiple of 0.25, takes the place of a smaller display_scale. So
-// text stays legible on a display with small pixels that reports a scale of 1.
+// display_scale counts as at least height / 1080, rounded down to a multiple of 0.25. So text stays
+// legible on a display with small pixels that reports a scale of 1.
 double dip_layout_scale(double display_scale, const DipToolState *tools, int height);
 
 // Lays a window out. scale: from dip_layout_scale. open: the dock shows a tab. bare: the window

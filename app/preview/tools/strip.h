@@ -1,6 +1,6 @@
 // Draws thumbnails of the camera path: small pictures with the current pane's settings at evenly
 // spaced times. The user clicks a thumbnail to move to its time. The thumbnails are drawn one after
-// the other while the camera rests.
+// the other while camera and scene stand still.
 #ifndef DIP_APP_PREVIEW_TOOLS_STRIP_H
 #define DIP_APP_PREVIEW_TOOLS_STRIP_H
 
@@ -46,8 +46,8 @@ void dip_strip_free(DipStrip *strip);
 // is drawn. Without a call since the last update, the strip draws nothing.
 void dip_strip_want(DipStrip *strip, int width, int height);
 
-// Draws the next thumbnail if the strip is wanted and incomplete, and the camera rests. Returns
-// whether it drew a thumbnail. Scenes of the gallery have no strip.
+// Draws the next thumbnail if the strip is wanted and incomplete, and camera and scene stand still.
+// Returns whether it drew a thumbnail. Scenes of the gallery have no strip.
 bool dip_strip_update(DipStrip *strip, const DipToolsInput *input);
 
 // Returns one of DIP_STRIP_COUNT thumbnails. Its picture is valid until the next update.
