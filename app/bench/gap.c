@@ -74,8 +74,8 @@ static void print_row(const DipBenchResult *result, int combination, double ns_p
 void dip_bench_print_gap(const DipBenchResult *result, double ns_per_cycle, FILE *out) {
     fprintf(out,
             "\nCycles of all threads per unit of work, and how many times the floor that is. A\n"
-            "stage's whole time, in each frame's fastest round, is divided by each of its units.\n"
-            "One cycle is %.3f ns.\n"
+            "stage's whole time, the shortest of each frame in any round, is divided by each of\n"
+            "its units. One cycle is %.3f ns.\n"
             "%-12s",
             ns_per_cycle, "stage");
     for (size_t i = 0; i < DIP_ARRAY_COUNT(units); i++) {

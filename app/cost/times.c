@@ -312,7 +312,7 @@ bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int ti
     // a block of its own, and so a drawing of the baseline of its own.
     const bool done =
         drive(&t, HERE, is_new ? BLOCK_ROWS : 1, (uint64_t)cost->report->options.seed + seed,
-              "frames timed for the advice", err);
+              "frames timed of combinations that may be best", err);
     close_timing(&t);
     return done;
 }

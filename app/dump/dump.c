@@ -123,9 +123,9 @@ static bool dump_frames(DipSession *session, const DipDumpOptions *options, cons
     int drawn = 0;
     while (done && drawn < total) {
         if (dip_interrupted()) {
-            done = dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "dump",
-                                 "interrupted after %d of %d frames; no record was written", drawn,
-                                 total);
+            done = dip_error_set(
+                err, DIP_ERROR_RUNTIME, NULL, 0, "dump",
+                "interrupted after %d of %d frames; no record of frames was written", drawn, total);
             break;
         }
         done = dump_frame(session, options, range.first + drawn * range.step, outputs, err);

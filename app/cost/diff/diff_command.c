@@ -57,8 +57,9 @@ static const DipOptionRow judge_rows[] = {
 static const DipOptionRow run_rows[] = {
     {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_COST_DIFF_MAX_SETS,
      .separator = ';', .read = read_set,
-     .text = "Settings to time, as SET;SET;... in quotes. The default is eight sets that use every "
-             "part of the renderer."},
+     .text =
+         "Settings to time, as SET;SET;... in quotes. The default is eight sets of antialiasing, "
+         "adaptive AA, anisotropic filtering and texture optimisations."},
     {"--frames", "N", DIP_OPTION_INTEGER, FIELD(frames), .least = 1, .most = 1000,
      .text = "Draw this many frames, which divide the camera path evenly. The default is 6. If a "
              "program is compared with a report, the frames are those of the report."},

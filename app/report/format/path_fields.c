@@ -19,9 +19,10 @@ static bool check_path(const DipFieldAt *at) {
 DIP_DERIVE(derive_floor,
            DIP_MADE(DipMetrics, (dip_cost_floor_metrics(dip_cost_report_of(at), at->index))))
 static const DipField path_fields[] = {
-    {"name", "path", NULL, "\"DEFAULT\", \"AA\" and so on: the key of the path in the ini.",
+    {"name", "path", NULL,
+     "\"DEFAULT\", \"AA\" and so on: the path's key in the ini, or the name of the path of --path.",
      OF_PATH(TEXT, paths)},
-    {"poses", NULL, NULL, "Hash of the poses that are drawn.", OF_PATH(TEXT, path_hashes)},
+    {"poses", NULL, NULL, "Hash of the poses at the viewpoints.", OF_PATH(TEXT, path_hashes)},
     {"base_row", NULL, NULL, "The row with which the others of the path are timed.",
      OF_PATH(WHOLE, base_rows), .most = DIP_COST_MAX_ROWS - 1},
     {"same_row", NULL, NULL, "The baseline once more, timed as if it were another setting (A/A).",
@@ -158,6 +159,8 @@ static bool check_sweep(const DipFieldAt *at) {
            dip_cost_is_row(dip_cost_report_of(at), sweep->base);
 }
 
-const DipRecord dip_cost_sweep_record =
-    DIP_RECORD("sweep", "All steps of one setting on one path, all others held constant.",
-               sweep_fields, DipCostSweep, check_sweep);
+const DipRecord dip_cost_sweep_record = DIP_RECORD(
+    "sweep",
+    "All steps of one setting on one path, without changes of other settings (but for the "
+    "group sizes of adaptive AA).",
+    sweep_fields, DipCostSweep, check_sweep);

@@ -70,7 +70,7 @@ static const DipField prediction_fields[] = {
      DIP_FACT(NUMBER, DipCostPrediction, p95_ms), .most = DIP_COST_MOST_MS, .digits = 2},
     {"flip", "predicted FLIP", NULL, "Predicted mean FLIP of a frame.",
      DIP_FACT(NUMBER, DipCostPrediction, flip), .most = DIP_COST_MOST_MEAN, .digits = 4},
-    {"row", NULL, NULL, "Index of the row that measured the combination later, or -1.",
+    {"row", NULL, NULL, "Index of the row that measured the combination, or -1.",
      DIP_FACT(WHOLE, DipCostPrediction, row), .least = -1, .most = DIP_COST_MAX_ROWS - 1},
 };
 
@@ -84,7 +84,7 @@ const DipRecord dip_cost_prediction_of_report_record = DIP_RECORD(
 static const DipField predictions_fields[] = {
     {"searched", NULL, NULL,
      "Number of all combinations that were predicted; 0 if it is not known. If there are more than "
-     "`combinations` has, only those that were measured or looked best were kept.",
+     "`combinations` has, only those that were counted, measured or looked best were kept.",
      DIP_FACT(WHOLE, DipCostPredictions, searched), .most = INT_MAX},
     {"trained", NULL, NULL, "Number of rows that were measured to predict all others.",
      DIP_FACT(WHOLE, DipCostPredictions, trained), .most = DIP_COST_MAX_ROWS},
@@ -102,7 +102,7 @@ const DipRecord dip_cost_predictions_record =
 static const DipField elsewhere_fields[] = {
     {"settings", NULL, NULL, "All quality settings of the combination.",
      DIP_FACT(SETTINGS, DipCostElsewhere, quality)},
-    {"ms", "mean", "ms", "Mean time of a frame with these settings at the smaller size.",
+    {"ms", "mean", "ms", "Mean time of a frame with these settings under these conditions.",
      DIP_FACT(ESTIMATE, DipCostElsewhere, ms), .least = DIP_COST_LEAST_MS, .most = DIP_COST_MOST_MS,
      .digits = 2},
     STAGE_NAMES_FIELD(DipCostElsewhere, NULL),

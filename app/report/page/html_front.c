@@ -174,9 +174,7 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
     snprintf(caption, sizeof caption,
              "%d of %d predicted combinations on path %s, in order of the predicted time.%s",
              listed->count, dip_cost_searched(report), report->paths[0],
-             is_part ? " The others are beaten in both predicted time and predicted FLIP, and were "
-                       "not measured."
-                     : "");
+             is_part ? " The others looked no better and were not measured." : "");
     dip_section_predictions(form, report);
     dip_put_html(form->out, "<details><summary>%d predicted combinations</summary>\n",
                  listed->count);

@@ -97,7 +97,7 @@ static void write_bars(const DipCostReport *report, const DipCostSweep *sweep, i
         "<text x=\"%d\" y=\"20\" font-weight=\"bold\">%s</text>"
         "<text x=\"%d\" y=\"20\" font-weight=\"bold\">FLIP, mean</text>\n",
         title, number, BAR_WIDTH, height, BAR_WIDTH, height, BAR_LEFT,
-        report->rounds > 0 ? "time, ratio to the baseline" : "", BAR_SECOND);
+        report->rounds > 0 ? "time, ratio to the base" : "", BAR_SECOND);
     for (int i = 0; i < sweep->row_count; i++) {
         write_bars_of(report, sweep, i, &scale, out);
     }
