@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 enum {
-    MOST_GOES = 8,
+    MOST_GOES = 5,
     FEW_GOES = 2, // Greatest number of goes if a run has fewer than FEW_ROUNDS rounds, for a
                   // fast answer.
     FEW_ROUNDS = 8
