@@ -30,7 +30,7 @@ typedef struct View {
 
 // A drawer draws with one combination of values on the plan's axes (settings, size, threads, ...).
 typedef struct Drawer {
-    DipGallery *gallery; // NULL unless the session shows the gallery
+    DipGallery *gallery; // NULL unless the view shows a scene of the gallery
     DipPainter *painter;
     DipPost *enlarger; // NULL if the render scale is 1
     uint8_t *enlarged; // the enlarged picture, rgba8
@@ -39,7 +39,7 @@ typedef struct Drawer {
 
 typedef struct Context {
     const DipBenchPlan *plan;
-    DipPool **pools; // one per number of threads
+    DipPool **pools; // one per number of threads in the plan
     View *views;
     int view_count;
     Drawer *drawers; // one per combination

@@ -9,9 +9,9 @@
 typedef struct Unit {
     const char *name;
     DipBenchStage stage; // the stage in which the unit's work is done
-    int counter;         // counts the units
-    double floors[4];    // cycles per unit with 1, 2, 4 and 8 samples; if the last three are 0, the
-                         // first holds for any number of samples
+    int counter;         // index of the counter that counts the units
+    double floors[4]; // cycles per unit with 1, 2, 4 and 8 samples per pixel; if the last three are
+                      // 0, the first holds for any number of samples
 } Unit;
 
 static const Unit units[] = {

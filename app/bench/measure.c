@@ -1,5 +1,5 @@
-// Measures the plan's combinations, of one program or of two in turn, and stores the times and
-// counters of every frame.
+// Measures the plan's combinations in one program, or in two programs in turn, and stores the times
+// and counters of every frame.
 #include "app/bench/measure.h"
 
 #include "app/cli/drive.h"

@@ -1,7 +1,7 @@
 // Measures every combination of a plan (plan.h) in interleaved rounds
-// (app/measure/timing/driver.h). Each round draws every frame of every combination. It draws them
-// in groups of at most four combinations (of one combination if there are two programs), and each
-// group also draws the base with which they are compared. The results are the times of every frame
+// (app/measure/timing/driver.h). Each round draws every frame of every combination. A round divides
+// the combinations into groups of at most four (of one if there are two programs). Each group also
+// draws the base with which its combinations are compared. The results are the times of every frame
 // in every round, and the work of every frame.
 #ifndef DIP_APP_BENCH_MEASURE_H
 #define DIP_APP_BENCH_MEASURE_H
@@ -16,9 +16,9 @@ typedef struct DipBenchResult {
     double *ms;            // times, [combination][stage][round][frame]
     double *scratch;       // room for the times of one combination in one stage
     DipBenchSample *first; // samples of the warm-up, [combination][frame]
-    // [combination]: the ratio of the combination's mean time to that of the plan's base. With
-    // two programs, the second one's ratios are to the mean times of the first one, and the
-    // first one's ratios are 1.
+    // [combination]: the ratio of the combination's mean time to that of the plan's base. If there
+    // are two programs, the second program's ratios are to the mean times of the same combinations
+    // in the first program, and the first program's ratios are 1.
     DipEstimate *ratios;
     // [combination]: the speed-up of the combination over the same combination with the fewest
     // threads. Filled in only if there is one program.
@@ -28,7 +28,7 @@ typedef struct DipBenchResult {
 bool dip_bench_result_init(DipBenchResult *result, const DipBenchPlan *plan, DipError *err);
 void dip_bench_result_free(DipBenchResult *result);
 
-// Stores the times of a combination in one frame of one round: timed->frame and timed->round.
+// Stores the times that a combination took for the frame timed->frame in the round timed->round.
 void dip_bench_result_add(DipBenchResult *result, int combination, const DipTimed *timed);
 
 // Returns the times of a combination in a stage, in milliseconds: rounds * frames values,
@@ -64,11 +64,12 @@ typedef struct DipBenchSource {
 // combination of the second is timed beside the same combination of the first. Ratios and speed-ups
 // come from these pairs (app/measure/stats/rounds.h).
 //
-// Before any time is taken, the warm-up draws each frame once. Its samples, with hashes and
-// counters, become the results' `first` samples. Two sources take turns at every frame. A rest of
-// one millisecond before each timed frame lets the other source's threads go to sleep. Progress
-// goes to standard error. Fails with DIP_ERROR_RUNTIME if the first source's pictures differ
-// between instruction sets or numbers of threads.
+// Before any time is taken, the warm-up draws each frame of each combination once. The samples of
+// the warm-up, with hashes and counters, become the results' `first` samples. If there are two
+// sources, they take turns after every frame, and a pause of one millisecond before each timed
+// frame lets the other source's threads go to sleep. Progress goes to standard error. Fails with
+// DIP_ERROR_RUNTIME if the first source's pictures differ between instruction sets or numbers of
+// threads.
 bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, int source_count,
                        DipBenchResult *results, DipError *err);
 

@@ -14,10 +14,10 @@
 #include <stdint.h>
 
 enum {
-    DIP_BENCH_MAX_VALUES = 32, // Values of one axis.
+    DIP_BENCH_MAX_VALUES = 32, // Greatest number of values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
     DIP_BENCH_MAX_FRAMES = 10000,
-    DIP_BENCH_MAX_ROUNDS = 1000 // The time to compute estimates grows with the cube of the rounds.
+    DIP_BENCH_MAX_ROUNDS = 1000 // Estimates take time that grows with the cube of the rounds.
 };
 
 typedef struct DipBenchSet {
@@ -25,10 +25,10 @@ typedef struct DipBenchSet {
     DipQuality quality;
 } DipBenchSet;
 
-// What to measure. Texts are borrowed from argv. A grid is a test scene of about a given number of
-// triangles; without grids, the bench draws the session's scene. An empty list of scales stands for
-// 1. An empty list of threads, instruction sets or sizes stands for one value, which comes from the
-// ini or the machine.
+// What to measure. Pointers to texts are borrowed from argv. A grid is a test scene of about a
+// given number of triangles; without grids, the bench draws the session's scene. An empty list of
+// scales stands for the scale 1. An empty list of threads, instruction sets or sizes stands for one
+// value, which comes from the ini or the machine.
 typedef struct DipBenchOptions {
     DipBenchSet sets[DIP_BENCH_MAX_VALUES];
     int set_count;
@@ -58,7 +58,7 @@ typedef struct DipBenchArguments {
     DipBenchOptions bench;
 } DipBenchArguments;
 
-extern const DipCommand dip_bench_command; // in bench.c
+extern const DipCommand dip_bench_command; // Defined in bench.c.
 extern const DipOptionParts dip_bench_option_parts;
 
 void dip_bench_options_default(void *arguments, int argc, char *const *argv);

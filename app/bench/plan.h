@@ -18,7 +18,7 @@ typedef enum DipBenchAxis {
 } DipBenchAxis;
 
 typedef struct DipBenchPlan {
-    DipBenchOptions options; // All lists have at least one value, except the list of grids.
+    DipBenchOptions options;          // Only the list of grids may be empty.
     int counts[DIP_BENCH_AXIS_COUNT]; // Number of values per axis, at least 1.
     // [combination][axis]: the index of the combination's value on the axis.
     int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];
@@ -64,13 +64,13 @@ DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination);
 void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxis axis, char *name,
                           size_t size_bytes);
 
-// Writes a combination's values on all axes that vary, except `without` (DIP_BENCH_AXIS_COUNT for
-// no exception). If this leaves no value, writes the settings.
+// Writes a combination's values on all axes that vary (that have several values), except `without`
+// (DIP_BENCH_AXIS_COUNT for no exception). If this leaves no value, writes the settings.
 enum { DIP_BENCH_LABEL_SIZE = 192 };
 void dip_bench_label(const DipBenchPlan *plan, int combination, DipBenchAxis without,
                      char label[DIP_BENCH_LABEL_SIZE]);
 
-// Writes the values that do not vary, separated by commas.
+// Writes the values on the axes that do not vary, separated by commas.
 void dip_bench_fixed_label(const DipBenchPlan *plan, char label[DIP_BENCH_LABEL_SIZE]);
 
 #endif

@@ -31,8 +31,9 @@ static double value_of(const DipBenchPlan *plan, int combination, DipBenchAxis a
                                           : v.threads;
 }
 
-// The points of one series. Each shows a combination; all of these combinations have the same
-// values except on the plot's axis.
+// The points of one series. Each point shows a combination. All combinations of a series have the
+// same values except on the plot's axis; in the plot against samples, their settings differ in aa
+// only.
 typedef struct Series {
     char name[DIP_BENCH_LABEL_SIZE];
     int first; // Index of the first combination.
@@ -66,7 +67,7 @@ static bool belongs(const DipBenchPlan *plan, const struct Kind *kind, int a, in
 static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Series *series) {
     dip_bench_label(plan, series->first, kind->axis, series->name);
     if (kind->axis == DIP_BENCH_AXIS_SET) {
-        // The settings that all points share: those of the first one, with aa at its default.
+        // The settings that all points share: those of the first point, with aa at its default.
         DipQuality rest = dip_bench_values(plan, series->first).set->quality;
         char settings[64], others[DIP_BENCH_LABEL_SIZE] = "";
         const DipQuality standard = dip_quality_default();

@@ -7,7 +7,7 @@
 // Writes the plots time_pixels.svg, time_scale.svg, time_samples.svg, time_triangles.svg and
 // time_threads.svg to a folder that exists. Leaves out a plot whose lines would have one point
 // each, for example time_samples.svg if all sets have the same aa. Prints the name of every plot
-// on standard error.
+// that it writes on standard error.
 bool dip_bench_write_plots(const char *folder, const DipBenchResult *result, DipError *err);
 
 #endif

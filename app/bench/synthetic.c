@@ -95,8 +95,8 @@ void dip_synthetic_destroy(DipSynthetic **synthetic) {
 
 enum { RELIEF_DISTANCE_M = 10 };
 
-// Sets position, normal and texture coordinates of one corner. The waves rise and fall by
-// at most 0.2 m, which is 2 % of the camera's distance.
+// Sets the position, the normal and the texture coordinates of one vertex of the relief. The waves
+// rise and fall by at most 0.2 m, which is 2 % of the camera's distance.
 static void set_corner(DipSynthetic *s, uint32_t vertex, double x, double y) {
     const double height = 0.1 * dip_sin(3.0 * x) + 0.1 * dip_cos(4.0 * y);
     const double slope[2] = {0.3 * dip_cos(3.0 * x), -0.4 * dip_sin(4.0 * y)};

@@ -17,7 +17,7 @@ typedef struct DipSynthetic {
     DipMaterialDef material;
     DipMeshDef mesh;
     DipObjectDef object;
-    DipCamPath *path; // NULL once a caller has taken it.
+    DipCamPath *path; // NULL if no path was made, or once the caller has taken it.
     uint8_t *rgba8;
     float *positions;
     float *normals; // The mesh has no normals until mesh.normals points here.
@@ -30,10 +30,10 @@ typedef struct DipSynthetic {
 DipSynthetic *dip_synthetic_create(uint32_t vertex_count, uint32_t index_count, DipError *err);
 
 // Makes a relief: a wavy surface in the renderer's fixed light. It has about triangle_count
-// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles, which are about equally large in the picture. It
-// nearly fills a picture of this vertical field of view and aspect ratio, and stays wholly in view
-// while the camera sways a little. turn_deg turns the camera to the left about the vertical, so
-// that less of the relief is in view.
+// (2..DIP_SYNTHETIC_MAX_TRIANGLES) triangles, which are about equally large in the picture. If
+// turn_deg is 0, the relief nearly fills a picture of this vertical field of view and aspect ratio,
+// and stays wholly in view while the camera sways a little. turn_deg turns the camera to the left
+// about the vertical, so that less of the relief is in view. Fails with DIP_ERROR_MEMORY.
 DipSynthetic *dip_synthetic_relief(int triangle_count, double fov_y_deg, double aspect,
                                    double turn_deg, DipError *err);
 
