@@ -1,5 +1,5 @@
-// Describes a command of the program. To add a command, make a folder that defines its DipCommand,
-// and add that DipCommand to the list in command_list.c.
+// Describes a command of the program. To add a command, define its DipCommand in a folder of its
+// own, and add the DipCommand to the list in command_list.c.
 #ifndef DIP_APP_CLI_COMMAND_H
 #define DIP_APP_CLI_COMMAND_H
 
@@ -10,7 +10,7 @@ typedef struct DipSessionDef DipSessionDef; // app/session/session.h
 
 // Options that every command has. Every command's struct of options begins with this struct.
 typedef struct DipProgramOptions {
-    const char *log; // File that gets a copy of warnings and errors, or NULL.
+    const char *log; // File to which warnings, errors and notes are also written, or NULL.
     bool help;
     bool version;
 } DipProgramOptions;
@@ -32,14 +32,14 @@ typedef struct DipExample {
 } DipExample;
 
 typedef struct DipCommand {
-    const char *name;    // "dump", "cost merge": one word or two.
-    const char *summary; // Starts with a verb; one line in the list of commands.
-    const char *usage;   // Command line after the name: "--out DIR [OPTION]..."
+    const char *name;    // One or two words, such as "dump" or "cost merge".
+    const char *summary; // Line in the list of commands; starts with a verb.
+    const char *usage;   // What follows the name on the command line: "--out DIR [OPTION]..."
     const char *text;    // Paragraphs that explain the command, separated by "\n\n".
     const DipExample *examples;
     size_t example_count;
-    bool lists_settings; // The help also lists the settings, because one of the options takes
-                         // settings.
+    bool lists_settings; // True if the help also lists the settings, because one of the options
+                         // takes settings.
     const DipOptionParts *parts;
     DipOperands operands;
     size_t options_size; // Bytes of the command's struct of options.
@@ -67,9 +67,9 @@ typedef struct DipMovedCommand {
     const char *instead; // What to type now.
 } DipMovedCommand;
 
-// The commands of a program. The first one runs if the command line names none. Hidden commands run
-// when they are named, but neither the list of commands in the help nor the manual page shows them,
-// because the program itself starts them. Their names are single words.
+// The commands of a program. The first command runs if the command line names no command. Hidden
+// commands run when they are named, but neither the list of commands in the help nor the manual
+// page shows them, because the program itself starts them. Their names are single words.
 typedef struct DipCommandList {
     const DipCommand *const *commands;
     size_t count;

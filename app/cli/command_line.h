@@ -6,7 +6,7 @@
 
 typedef struct DipCommandLine {
     const DipCommand *command; // The named command, or the list's first if none is named.
-    bool named;                // The command line names a command.
+    bool named;                // True if the command line names a command.
     // The first word of several commands' names, if the command line asks for the help of this
     // word, as in `diptych path --help`. The help then shows all of these commands. Otherwise NULL.
     const char *group;

@@ -1,4 +1,4 @@
-// Steps a timing driver (driver.h), shows its progress, and stops after Ctrl-C.
+// Steps a timing driver (driver.h), shows how far the driver is, and stops after Ctrl-C or SIGTERM.
 #include "app/cli/drive.h"
 
 #include "app/cli/progress.h"
@@ -8,8 +8,8 @@ bool dip_drive(DipDriver *driver, const char *things, const char *command, const
     DipDriverProgress now = dip_driver_progress(driver);
     DipProgress progress = dip_progress_begin(things, now.total);
     DipDriverStep step = DIP_DRIVER_WORKING;
-    bool searches = false; // The driver looks for disturbed frames. A second line of progress shows
-                           // this.
+    bool searches = false; // True once the driver looks for disturbed frames, which a second line
+                           // of progress shows.
     while (step < DIP_DRIVER_DONE && !dip_interrupted()) {
         step = dip_driver_step(driver, err);
         now = dip_driver_progress(driver);

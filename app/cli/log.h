@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
-// Opens a log file. From now on, the functions below also append to it every line that they print,
-// without "diptych: ". Fails with DIP_ERROR_IO if the file cannot be opened, or with
+// Opens a log file. From now on, the functions below also append to this file every line that they
+// print, without "diptych: ". Fails with DIP_ERROR_IO if the file cannot be opened, or with
 // DIP_ERROR_RUNTIME if the machine is the cause, for example because too many files are open.
 bool dip_log_open(const char *file, DipError *err);
 void dip_log_close(void);

@@ -1,5 +1,5 @@
-// Reads the machine's properties from Linux, measures the time of a
-// processor's cycle, and hashes the program's file.
+// Reads the machine's properties from Linux, measures the length of a processor cycle, and hashes
+// the program's file.
 #include "app/cli/machine.h"
 
 #include "renderer/base/clock.h"

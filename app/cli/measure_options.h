@@ -9,12 +9,12 @@ enum { DIP_MEASURE_MOST_ROUNDS = 10000, DIP_MEASURE_MOST_STARTS = DIP_TIMED_MOST
 
 typedef struct DipMeasureOptions {
     int rounds; // Number of rounds of each start (driver.h); 0 if the command chooses.
-    int starts; // Number of starts (driver.h). With 1, cost draws in its own process.
+    int starts; // Number of starts (driver.h). If it is 1, `diptych cost` draws in its own process.
     bool has_seed;
     int seed;
 } DipMeasureOptions;
 
-// Options of a command that starts its own program again, to draw in another process.
+// Options of a command that can start other programs to draw frames for this command.
 typedef struct DipServeOptions {
     bool serve;        // True if another process has started this one to draw for it.
     int argc;          // Number of elements of argv.

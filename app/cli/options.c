@@ -196,7 +196,7 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
     return NULL;
 }
 
-// Fails, and suggests an option of this command if one is similar enough.
+// Fails. If an option of this command is similar enough, the message suggests that option.
 static bool unknown_option(const DipOptionParts *parts, const char *command, const char *name,
                            DipError *err) {
     const char *names[MAX_ROWS];

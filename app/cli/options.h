@@ -52,7 +52,7 @@ struct DipOptionRow {
     // of the option decides the message.
     const char *accepted;
     char separator;        // LIST, and CUSTOM with several values: what separates the values.
-    DipOptionReader *read; // LIST and CUSTOM: the function that stores a value.
+    DipOptionReader *read; // CUSTOM, and LIST without `item`: the function that stores a value.
     const char *text;      // Whole sentences for the help and the manual page.
 };
 
@@ -91,7 +91,7 @@ bool dip_option_parse(const DipOptionParts *parts, const char *command, int argc
 bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, DipError *err);
 
 // Finds a row by its name, and sets *part to the part that has the row. Returns NULL if no part has
-// it.
+// such a row.
 const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *name,
                                     const DipOptionPart **part);
 
@@ -101,8 +101,8 @@ const DipOptionRow *dip_option_find(const DipOptionParts *parts, const char *nam
 bool dip_option_refuse(DipError *err, DipErrorCode code, const char *key, const char *value,
                        const char *what);
 
-// Reads at most `count` whole numbers between separators. Returns how many there are. Returns 0 if
-// a part is not a whole number or there are more than `count` parts.
+// Reads at most `count` whole numbers, which stand between separators. Returns how many numbers
+// there are. Returns 0 if a part is not a whole number or there are more than `count` parts.
 int dip_option_integers(const char *text, char separator, int count, int *values);
 
 #endif

@@ -12,11 +12,12 @@
 static const int64_t terminal_period_ns = 100000000;
 static const int64_t other_period_ns = INT64_C(10000000000);
 
-// Expected times, of the work that begins next and of the parts of the command that come after it;
-// 0 if they are not known.
+// next_s is the expected time of the work that begins next, and later_s is that of all parts of the
+// command that come after this work. A time is 0 if it is not known.
 static double next_s, later_s;
-// When this share of the work is done, the expected time and the time extrapolated from the work so
-// far have equal weights. Later, the extrapolated time weighs more.
+// The time left is a weighted mean of two estimates: one from the expected time, and one from the
+// time that the work has taken so far. Both weigh the same when this share of the work is done.
+// Later, the second estimate weighs more.
 static const double early = 0.05;
 
 void dip_progress_expect(double own_s, double all_later_s) {

@@ -8,24 +8,25 @@
 
 typedef struct DipProgress {
     const char *things; // What is counted, such as "frames". Borrowed.
-    int64_t total;      // Number of things when the work is done.
+    int64_t total;      // Number of things in all.
     int64_t begin_ns;   // When the work began, by dip_clock_ns.
-    int64_t shown_ns;   // When the progress was last shown, by dip_clock_ns.
+    int64_t shown_ns;   // When the progress was last shown, by dip_clock_ns; begin_ns before that.
     double expected_s;  // Time that the work is expected to take; 0 if not known.
-    bool terminal;      // Standard error is a terminal.
+    bool terminal;      // True if standard error is a terminal.
 } DipProgress;
 
 DipProgress dip_progress_begin(const char *things, int64_t total);
 
 // Sets how long the work that begins next is expected to take, and how long all later parts of the
-// command together are expected to take; a time is 0 if it is not known. The time left that is
-// shown includes the later parts from now on. At first it follows the expectation, and then what
-// the work really takes.
+// command together are expected to take; a time is 0 if it is not known. From now on, the time left
+// that is shown includes the later parts. At first the time left follows from the expected time of
+// the work, later from the time that the work has taken so far.
 void dip_progress_expect(double own_s, double later_s);
 
-// Shows "7 of 12 frames, 3 s left", or "7 of 12 frames, about 4 min left in all". On a terminal,
-// one line is overwritten up to ten times a second. If standard error is not a terminal, a new line
-// is printed every ten seconds, so a short command prints nothing.
+// Shows "7 of 12 frames, 3 s left" or, if later parts are expected to take time, "7 of 12 frames,
+// about 4 min left in all". On a terminal, one line is overwritten up to ten times a second. If
+// standard error is not a terminal, a new line is printed every ten seconds, so a short command
+// prints nothing.
 void dip_progress_show(DipProgress *progress, int64_t done);
 
 // Shows that `done` of the things are done and ends the line. Prints nothing if standard error is
@@ -39,8 +40,8 @@ double dip_progress_elapsed_s(const DipProgress *progress);
 // nothing if standard error is not a terminal.
 void dip_progress_clear(void);
 
-// From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second ends the program
-// at once, whichever of both it is.
+// From now on, the first SIGINT (Ctrl-C) or SIGTERM only sets a flag. The second signal, of either
+// kind, ends the program at once.
 void dip_interrupt_watch(void);
 
 // Returns whether one of these signals has come.
