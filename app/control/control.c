@@ -21,11 +21,11 @@ enum {
 // its requests wait, until it reads again. Memory never grows, and nothing waits for the client.
 typedef struct Client {
     DipWire wire;
-    bool ended;       // The client has closed its side; no further input comes.
-    bool broken;      // The client does not read any more, so its output is thrown away.
-    bool skips;       // The current line is too long, and its rest is skipped.
+    bool ended; // True if the client has closed its side or reading failed; no further input comes.
+    bool broken;      // True if the client does not read any more; its output is thrown away.
+    bool skips;       // True if the current line is too long; its rest is skipped.
     unsigned topics;  // Subscriptions, as bits 1 << DipControlTopic.
-    uint64_t dropped; // Events that were dropped since the last event that was sent.
+    uint64_t dropped; // Number of events that were dropped since the last event that was sent.
     int attempt;      // How often the owner has put off the request in the first waiting line.
     size_t in_first;  // Index in `in` of the first byte that is not used yet.
     size_t in_bytes;  // Number of bytes in `in` that are not used yet.
@@ -41,9 +41,9 @@ struct DipControl {
     unsigned subscriptions;
 };
 
-// Diptych sends no_memory instead of any other line if memory runs out or the output buffer has
-// no room for that line. It sends too_many to a client that connects when
-// DIP_CONTROL_MAX_CLIENTS are connected already, or when there is no memory for one more.
+// Diptych sends no_memory instead of any other line if memory runs out or the output buffer has no
+// room for that line. It sends too_many to a client that connects when DIP_CONTROL_MAX_CLIENTS are
+// connected already, or when there is no memory for another client.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
@@ -313,7 +313,8 @@ static void answer_lines(DipControl *control, Client *client) {
 
 // --- clients -------------------------------------------------------------------------------------
 
-// Greets a client, or tells it that too many are connected.
+// Adds and greets a client. If there is no room or memory for another client, tells the client that
+// too many are connected and closes the connection.
 static void welcome(DipControl *control, DipWire wire) {
     int c = 0;
     while (c < DIP_CONTROL_MAX_CLIENTS && control->clients[c]) {

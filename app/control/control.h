@@ -12,7 +12,7 @@
 
 struct cJSON;
 
-enum { DIP_CONTROL_MAX_CLIENTS = 8 }; // Clients that can be connected at once.
+enum { DIP_CONTROL_MAX_CLIENTS = 8 }; // Greatest number of clients that are connected at once.
 
 typedef enum DipControlAnswer {
     DIP_CONTROL_DONE,
@@ -21,9 +21,11 @@ typedef enum DipControlAnswer {
 } DipControlAnswer;
 
 typedef struct DipControlDef {
-    const char *where;   // "-" for standard input and output, or the path of a socket. Borrowed
-                         // until the channel is open.
-    const char *version; // The program's version, for the greeting. Borrowed.
+    // "-" for standard input and output, or the path of a socket. Borrowed until the channel is
+    // open.
+    const char *where;
+    // The program's version, for the greeting. Borrowed until the channel is closed.
+    const char *version;
     void *context;
     // Carries out a request, or refuses it and fills *err. Adds the fields of the reply to `reply`,
     // an object. `attempt` counts how often this function has put off this request.
@@ -41,7 +43,7 @@ DipControl *dip_control_open(const DipControlDef *def, DipError *err);
 void dip_control_close(DipControl **control);
 
 // Accepts clients, carries out the requests that have arrived, and writes replies and events. Call
-// it once in each turn of the program's loop.
+// this function once in each turn of the program's loop.
 void dip_control_poll(DipControl *control);
 
 // Returns the topics that at least one client has subscribed to, as bits 1 << DipControlTopic.
@@ -52,9 +54,9 @@ unsigned dip_control_topics(const DipControl *control);
 unsigned dip_control_subscriptions(const DipControl *control);
 
 // Sends an event to the clients that have subscribed to its topic. A client that reads too slowly
-// misses the event; the next event that reaches it says how many it has missed. Takes ownership of
-// `fields`, an object with the event's fields. `fields` may be NULL, which means that memory ran
-// out.
+// misses the event; the next event that reaches the client says how many events it has missed.
+// Takes ownership of `fields`, an object with the event's fields. `fields` may be NULL, which means
+// that memory ran out.
 void dip_control_send(DipControl *control, DipControlTopic topic, struct cJSON *fields);
 
 #endif

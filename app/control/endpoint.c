@@ -66,10 +66,10 @@ void dip_wire_close(DipWire *wire) {
 
 // --- standard input and output -------------------------------------------------------------------
 
-// Opens standard output once more so that writing to it never waits. Descriptors of
-// the same open file share the flag O_NONBLOCK: if Diptych set it on the descriptor that it was
-// given, writes of the parent process would no longer wait either. Sockets cannot be opened again,
-// and ordinary files need not be, so these are only duplicated.
+// Opens standard output once more, so that writing to it never waits. Descriptors of the same open
+// file share the flag O_NONBLOCK: if Diptych set it on the descriptor that it was given, writes of
+// the parent process would no longer wait either. Sockets cannot be opened again, and ordinary
+// files need not be, so these are only duplicated.
 static int open_output(void) {
     struct stat status;
     int output = -1;
@@ -97,8 +97,9 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
     }
     wire->sends = fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode);
     if (wire->sends && fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode)) {
-        // The parent process made one socket for input and output, with socketpair. Reading uses
-        // the same duplicate of the socket (open_output) as writing.
+        // Takes standard input and output for one socket, which the parent process has made with
+        // socketpair. Both reading and writing use the duplicate of this socket that open_output
+        // made.
         wire->in = wire->out;
         wire->socket = true;
     }

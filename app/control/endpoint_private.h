@@ -1,4 +1,4 @@
-// Finds the clients of the control channel: the program at the other end of standard input and
+// Connects the control channel with its clients: the program at the other end of standard input and
 // output, or the programs that connect to a Unix domain socket. No function here waits.
 #ifndef DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 #define DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
@@ -21,12 +21,12 @@ typedef struct DipWire {
 // the input or after an error.
 ptrdiff_t dip_wire_read(const DipWire *wire, void *bytes, size_t size);
 
-// Writes as many bytes as the connection takes now. Returns their number, or -1 if nobody reads any
-// more.
+// Writes as many bytes as the connection takes now. Returns their number, or -1 after an error, for
+// example because nobody reads any more.
 ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size);
 
-// Returns whether nothing can reach the other side any more: it has closed a socket in both
-// directions, or it no longer reads standard output.
+// Returns whether nothing can reach the client any more, because the client has closed a socket in
+// both directions or no longer reads standard output.
 bool dip_wire_is_cut(const DipWire *wire);
 
 void dip_wire_close(DipWire *wire);
@@ -40,14 +40,14 @@ typedef struct DipEndpoint {
 } DipEndpoint;
 
 // Takes over standard input and output. What the program prints on standard output from now on goes
-// to standard error. From now on, the process ignores SIGPIPE.
+// to standard error. From now on, the process ignores SIGPIPE. Fails with IO.
 bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *err);
 
 // Listens on a socket that only the user who runs the program can open. Replaces a file at this
 // path only if it is a socket on which no program listens. Fails with CONFLICT, OVERSIZED or IO.
 bool dip_endpoint_listen(DipEndpoint *endpoint, const char *path, DipError *err);
 
-// Accepts a client. Returns false if no client waits.
+// Accepts a client. Returns false if no client waits or an error occurs.
 bool dip_endpoint_accept(const DipEndpoint *endpoint, DipWire *wire);
 
 // Closes the listening socket and removes its file, or restores the process's standard output.

@@ -92,7 +92,7 @@ static const Row rows[DIP_CONTROL_VERB_COUNT] = {
     [DIP_CONTROL_SCREENSHOT] = {BIT(FILE_NAME), 0},
 };
 
-// The parts that `get` answers with if the request does not say which.
+// The parts that the reply to `get` has if the request names no part.
 static const unsigned usual_parts = BIT(DIP_CONTROL_PART_STATE) | BIT(DIP_CONTROL_PART_SETTINGS) |
                                     BIT(DIP_CONTROL_PART_TIMES) | BIT(DIP_CONTROL_PART_ERRORS);
 
@@ -327,7 +327,7 @@ static bool read_verb(const cJSON *object, DipControlVerb *verb, DipError *err) 
 }
 
 static bool read_id(const cJSON *object, DipControlId *id, DipError *err) {
-    static const double largest = 9007199254740992.0; // Doubles hold all whole numbers to 2^53.
+    static const double largest = 9007199254740992.0; // Doubles hold all whole numbers up to 2^53.
     const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, "id");
     if (!item || cJSON_IsNull(item)) {
         return true;

@@ -1,8 +1,7 @@
 // Reads requests of the control channel: one line of JSON becomes one checked struct.
 //
 // docs/embedding.md describes the protocol. A request is an object such as
-// {"id": 7, "request": "seek", "time_s": 2.5}. The functions of this file only read requests; they
-// carry none out.
+// {"id": 7, "request": "seek", "time_s": 2.5}. The functions of this file carry out no request.
 #ifndef DIP_APP_CONTROL_REQUEST_H
 #define DIP_APP_CONTROL_REQUEST_H
 
@@ -18,12 +17,10 @@ enum { DIP_CONTROL_PROTOCOL = 1 };
 
 enum {
     DIP_CONTROL_MAX_LINE_BYTES = 65536, // Longest line that is read, without its line feed.
-    // Bytes of `settings` and of `change`, of a file's name, and of another name or an id that is a
-    // text, each including the final 0.
-    DIP_CONTROL_TEXT_SIZE = 512,
-    DIP_CONTROL_FILE_SIZE = 1024,
-    DIP_CONTROL_NAME_SIZE = 64,
-    DIP_CONTROL_MAX_SIZE_PX = 8192 // Largest width and height of a pane.
+    DIP_CONTROL_TEXT_SIZE = 512,        // Bytes of `settings` and of `change`, with the final 0.
+    DIP_CONTROL_FILE_SIZE = 1024,       // Bytes of a file's name, with the final 0.
+    DIP_CONTROL_NAME_SIZE = 64,         // Bytes of another name or of a text id, with the final 0.
+    DIP_CONTROL_MAX_SIZE_PX = 8192      // Largest width and height of a pane.
 };
 
 // Lists the requests as X(name, NAME).
@@ -109,7 +106,7 @@ typedef enum DipControlIdKind {
 
 typedef struct DipControlId {
     DipControlIdKind kind;
-    double number; // A whole number between -2^53 and 2^53.
+    double number; // A whole number from -2^53 to 2^53.
     char text[DIP_CONTROL_NAME_SIZE];
 } DipControlId;
 
@@ -118,13 +115,12 @@ typedef struct DipControlRequest {
     DipControlId id;
     DipControlVerb verb;
     unsigned panes; // SET: DIP_CONTROL_PANE_... bits, at least one.
-    // SET: exactly one of these two texts is not empty. `settings` replaces all settings; the
-    // reader has checked it. `change` names only the settings to change
+    // SET: exactly one of these two texts is not empty. `settings` replaces all settings;
+    // dip_control_request_read has checked it. `change` names only the settings to change
     // (dip_control_change_settings).
     char settings[DIP_CONTROL_TEXT_SIZE];
     char change[DIP_CONTROL_TEXT_SIZE];
-    unsigned notices; // SET: with DIP_CONTROL_OFF, the status line says nothing
-                      // about the change.
+    unsigned notices; // SET: with DIP_CONTROL_OFF, the status line says nothing about the change.
     unsigned show;    // PANEL: DIP_CONTROL_ON or DIP_CONTROL_OFF. With both, OFF counts.
     // PATH: a category of camera paths, or the name of a camera of the models.
     char category[DIP_CONTROL_NAME_SIZE];
@@ -146,8 +142,9 @@ typedef struct DipControlRequest {
 bool dip_control_request_read(const char *line, size_t length, DipControlRequest *request,
                               DipError *err);
 
-// Changes the settings that the text names ("aa=4,af=16") and keeps the others. Fails as
-// dip_quality_parse does. On failure *to is unchanged. `to` may point to the same struct as `from`.
+// Changes the settings that the text names ("aa=4,af=16") and keeps the others. Fails with the
+// error of dip_quality_parse, or with OVERSIZED if the text is too long. On failure *to is
+// unchanged. `to` may point to the same struct as `from`.
 bool dip_control_change_settings(const DipQuality *from, const char *change, DipQuality *to,
                                  DipError *err);
 
