@@ -59,7 +59,7 @@ typedef struct DipDisplay {
     // Gives the window a title. NULL if the display has no title.
     void (*set_title)(void *context, const char *title);
 
-    // Gives the clipboard a text. Returns false if that failed. NULL if the display has no
+    // Puts a text into the clipboard. Returns false if that failed. NULL if the display has no
     // clipboard.
     bool (*set_clipboard)(void *context, const char *text);
 

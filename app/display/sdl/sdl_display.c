@@ -132,7 +132,7 @@ static void close_display(void *context) {
     if (sdl->sdl_open && quits) {
         SDL_Quit();
     }
-    dip_sdl_x_errors_end(); // Not earlier: until SDL has closed its connection, errors of its last
+    dip_sdl_x_errors_end(); // Until SDL_Quit has closed SDL's connection, errors of SDL's last
                             // requests may arrive.
     dip_sdl_host_close(&sdl->host);
     free(sdl);
@@ -204,7 +204,7 @@ static bool present(void *context, const DipPixels *picture, const DipRect *dama
         shown =
             show_rects(sdl->window, surface, picture, damage + i, dip_min(count - i, MAX_RECTS));
     }
-    // A host may close its window at any time. The next event then says so.
+    // A host may close its window at any time. next_event then returns QUIT.
     return shown || (sdl->host && dip_sdl_host_is_gone(sdl->host)) ||
            dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "preview", "%s", SDL_GetError());
 }

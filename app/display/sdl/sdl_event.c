@@ -1,7 +1,7 @@
 // Translates events of SDL: keys, the mouse, the window, dropped files and game controllers.
 #include "app/display/sdl/sdl_private.h"
 
-// SDL numbers buttons and axes of controllers as Diptych does. Its mouse buttons have Diptych's
+// SDL numbers buttons and axes of controllers as Diptych does. SDL's mouse buttons have Diptych's
 // order, too, but their numbers begin with 1.
 _Static_assert((int)DIP_CONTROLLER_A == (int)SDL_CONTROLLER_BUTTON_A, "first button");
 _Static_assert((int)DIP_CONTROLLER_START == (int)SDL_CONTROLLER_BUTTON_START, "buttons");
@@ -142,7 +142,7 @@ static DipEvent removed_event(const SDL_ControllerDeviceEvent *sdl) {
     return (DipEvent){.kind = DIP_EVENT_CONTROLLER_REMOVED, .controller = sdl->which};
 }
 
-// SDL may send buttons and axes that have no name in event.h.
+// SDL may send buttons and axes that have no name in event.h. Their events are ignored.
 static DipEvent controller_button_event(const SDL_ControllerButtonEvent *sdl) {
     const bool down = sdl->type == SDL_CONTROLLERBUTTONDOWN;
     return (DipEvent){

@@ -9,7 +9,7 @@
 static const int64_t ask_period_ns = 250000000;
 
 struct DipSdlHost {
-    Display *display; // A connection for the host's window; SDL has another.
+    Display *display; // Connection to the X server for the host's window; SDL has its own.
     Window window;    // The host's window.
     Window child;
     int width; // Size of the child.
@@ -164,9 +164,9 @@ bool dip_sdl_host_take_focus(const DipSdlHost *host) {
 // --- errors of the X server ----------------------------------------------------------------------
 
 // These variables are global, because Xlib passes no context to an error handler.
-static Window own_window; // The window to watch, or None.
+static Window own_window; // The window of dip_sdl_x_errors_watch, or None.
 static XErrorHandler previous_handler;
-static bool closes; // own_window is being closed.
+static bool closes; // True while own_window is being closed.
 
 static int handle_error(Display *display, XErrorEvent *event) {
     if (event->error_code == BadWindow && (closes || event->resourceid != own_window)) {

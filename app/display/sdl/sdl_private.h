@@ -12,9 +12,9 @@
 // Makes SDL send events of game controllers. If SDL cannot, there are no controllers.
 void dip_sdl_controller_init(void);
 
-// Translates an event. An event that event.h has no kind for becomes DIP_EVENT_NONE. A DROP
-// borrows the file's name from the SDL event; the caller must free that name. Opens a controller
-// that was added and closes one that was removed; SDL_Quit closes the rest.
+// Translates an event. An event that event.h has no kind for becomes DIP_EVENT_NONE. The event DROP
+// points to the file's name in the SDL event; the caller must free that name with SDL_free. Opens a
+// controller that was added and closes one that was removed; SDL_Quit closes the rest.
 DipEvent dip_sdl_event_translate(const SDL_Event *sdl);
 
 // --- sdl_host.c -----------------------------------------------------------------------------
@@ -49,29 +49,32 @@ bool dip_sdl_host_follow(DipSdlHost *host);
 // Asks the X server whether the host's window has gone away.
 bool dip_sdl_host_is_gone(DipSdlHost *host);
 
-// Hides the child before it is destroyed.
+// Hides the child. Call this function before SDL destroys the child's window.
 void dip_sdl_host_hide_child(const DipSdlHost *host);
 
 // Returns whether the child cannot be seen, because the host's window or a window around it is
-// unmapped. Asks the X server at most four times a second. `now_ns` is the time on any clock.
+// unmapped. Asks the X server at most four times a second. `now_ns` is the present time on a
+// monotonic clock.
 bool dip_sdl_host_is_hidden(DipSdlHost *host, int64_t now_ns);
 
 // Gives the child the keyboard focus. Returns whether it did not have the focus before.
 bool dip_sdl_host_take_focus(const DipSdlHost *host);
 
-// Errors of the X server about windows of other programs.
+// The functions below handle errors of the X server about windows of other programs.
 //
-// Xlib's own handler ends the process at any error. While a file is dropped and while another
-// program takes the clipboard, SDL writes to windows of that other program. If the program dies at
-// that moment, the X server answers with BadWindow, which must not end the preview.
+// Xlib's own handler ends the process at any error. While another program drops a file or takes the
+// clipboard, SDL writes to windows of that program. If the program dies at that moment, the X
+// server answers with BadWindow, which must not end the preview.
 
 // From now on, the process ignores BadWindow errors about all windows but `own`. The handler that
 // was set before gets all other errors. Does nothing if SDL does not use X11. The handler belongs
 // to the process, so only one window at a time can be `own`.
 void dip_sdl_x_errors_watch(SDL_Window *own);
 
-// From now on, BadWindow errors about the own window are ignored, too: an event that SDL has sent
-// to it may reach the X server after the window is gone.
+// From now on, the process ignores BadWindow errors about `own`, too, because an event that SDL has
+// sent to this window may reach the X server after the window is gone. Call this function before
+// the window is destroyed. It waits about 20 ms, so that the X server usually handles such an event
+// in time.
 void dip_sdl_x_errors_close(SDL_Window *own);
 
 // Undoes dip_sdl_x_errors_watch. Does nothing if no window is watched.

@@ -37,15 +37,15 @@ static const int64_t release_ns = 150000000;
 static const int64_t double_click_ns = 400000000;
 
 typedef struct HeldKey {
-    DipKeycode key; // NONE: the entry is free.
+    DipKeycode key; // NONE if the entry is free.
     int64_t seen_ns;
 } HeldKey;
 
 typedef struct Terminal {
     DipTerminalWriter writer;
     int input;
-    bool owns_input; // The display opened `input` itself.
-    bool gone;       // The terminal has hung up.
+    bool owns_input; // True if the display opened `input` itself.
+    bool gone;       // True if reading or writing has failed, as when the terminal has hung up.
     bool quit_sent;
 
     DipTextCell *text; // Owned: the cells of the last set_text, or NULL.
@@ -104,7 +104,7 @@ static void queue_release(Terminal *terminal, HeldKey *held) {
     queue_event(terminal, &event);
 }
 
-// Returns the entry of a key. If the key is not held, returns a free entry. If there is none,
+// Returns the entry of a key. If the key is not held, returns a free entry. If no entry is free,
 // releases the key that was seen the longest time ago, and returns its entry.
 static HeldKey *find_held(Terminal *terminal, DipKeycode key) {
     HeldKey *free_entry = NULL, *oldest = &terminal->held[0];
@@ -233,7 +233,7 @@ static int64_t next_deadline_ns(const Terminal *terminal, int64_t until_ns) {
     return until_ns;
 }
 
-// Waits until there is input, a signal comes, or the time is over.
+// Waits until there is input, a signal comes, or wait_ns nanoseconds have passed. Reads the input.
 static void wait_for_input(Terminal *terminal, int64_t wait_ns) {
     struct pollfd waits[2] = {
         {.fd = dip_terminal_mode_signal_fd(), .events = POLLIN},

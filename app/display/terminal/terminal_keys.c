@@ -1,6 +1,6 @@
-// Translates characters and escape sequences. The sequences are those of xterm. For keys without
-// modifiers, the Linux console, rxvt, tmux and screen send the same ones or those listed in the
-// tables below.
+// Translates the characters and escape sequences of a terminal into events. The sequences are those
+// of xterm. For keys without modifiers, the Linux console, rxvt, tmux and screen send the same
+// sequences or other sequences that this file reads, too.
 #include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
@@ -25,7 +25,7 @@ typedef struct Sequence {
     int length; // Number of bytes.
     uint8_t marker;
     uint8_t final;
-    int parameters[MAX_PARAMETERS]; // 0: not given.
+    int parameters[MAX_PARAMETERS]; // 0 if not given.
 } Sequence;
 
 typedef struct KeyOfNumber {
@@ -99,7 +99,7 @@ static int find_key(const KeyOfNumber *keys, size_t count, int number) {
     return DIP_KEYCODE_NONE;
 }
 
-// Returns the key whose sequence ends in a letter: ESC [ A or ESC O A.
+// Returns the key whose sequence ends in a letter, such as ESC [ A or ESC O A.
 static int key_of_letter(uint8_t letter) {
     static const KeyOfNumber keys[] = {
         {'A', DIP_KEYCODE_UP},   {'B', DIP_KEYCODE_DOWN},  {'C', DIP_KEYCODE_RIGHT},
@@ -157,7 +157,7 @@ static DipEvent mouse_event(const Sequence *sequence) {
 // Reads a control sequence from the byte after ESC [ on. Returns false if more bytes must follow.
 static bool read_sequence(const uint8_t *bytes, int count, Sequence *sequence) {
     int index = 0;
-    bool detail = false; // A colon has come: details of a number follow, which nobody needs here.
+    bool detail = false; // True from a colon to the next semicolon; the digits between are skipped.
     *sequence = (Sequence){0};
     for (int i = 2; i < count && i < LONGEST_SEQUENCE; ++i) {
         const uint8_t byte = bytes[i];
@@ -229,8 +229,8 @@ static int read_control(const uint8_t *bytes, int count, DipEvent *event) {
     return sequence.length;
 }
 
-// Reads a character beyond ASCII. A byte that is not valid UTF-8 is skipped, and so is a character
-// that has more bytes than it needs.
+// Reads a character beyond ASCII. A byte that is not valid UTF-8 is skipped, and so is an overlong
+// encoding.
 static int read_utf8(const uint8_t *bytes, int count, DipEvent *event) {
     const int length = bytes[0] >= 0xf0 ? 4 : bytes[0] >= 0xe0 ? 3 : bytes[0] >= 0xc2 ? 2 : 1;
     int code = length == 1 ? 0 : bytes[0] & (0x7f >> length);
@@ -243,7 +243,7 @@ static int read_utf8(const uint8_t *bytes, int count, DipEvent *event) {
         }
         code = code << 6 | (bytes[i] & 0x3f);
     }
-    static const int least[] = {0, 0, 0x80, 0x800, 0x10000}; // [length]
+    static const int least[] = {0, 0, 0x80, 0x800, 0x10000}; // [length]: least code point.
     if (code >= least[length] && code > 0 && code <= 0x10ffff) {
         *event = key_event(code, 0);
     }

@@ -18,14 +18,14 @@ enum { SIGNAL_STACK_BYTES = 65536, WRITE_WAIT_MS = 100 };
 // clears the screen, and asks for decimal reports of the mouse's buttons and drags.
 static const char enter_sequence[] = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[0m\x1b[2J\x1b[H"
                                      "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
-// Undoes enter_sequence. It begins by ending an update that was cut off in the middle.
+// Undoes enter_sequence. The sequence begins by ending an update that was cut off in the middle.
 static const char leave_sequence[] = "\x1b[?2026l\x1b[?1006l\x1b[?1002l\x1b[?1000l"
                                      "\x1b[0m\x1b[2J\x1b[H\x1b[?7h\x1b[?25h\x1b[?1049l";
 
 // The signals that the mode takes over. `asks` is what a signal asks for (terminal_private.h).
 static const struct {
     int number;
-    unsigned asks; // 0: the signal ends the process, as a crash does.
+    unsigned asks; // 0 if the signal ends the process, as a crash does.
 } signals[] = {
     {SIGINT, DIP_TERMINAL_QUIT},
     {SIGTERM, DIP_TERMINAL_QUIT},
@@ -45,18 +45,18 @@ enum { SIGNAL_COUNT = (int)DIP_ARRAY_COUNT(signals) };
 static struct {
     int input;
     int output;
-    pid_t owner; // The process that entered the mode. Its children must not leave it.
+    pid_t owner; // The process that entered the mode. Its child processes must not leave the mode.
     struct termios before;
     struct termios during;
     struct sigaction before_ours[SIGNAL_COUNT];
-    int wake[2]; // A pipe that handlers write to.
+    int wake[2]; // A pipe to which the signal handlers write.
     bool exit_registered;
 } mode;
 
-static volatile sig_atomic_t active; // The terminal must be restored.
+static volatile sig_atomic_t active; // True while the terminal must be restored.
 static volatile sig_atomic_t quits;  // Number of signals that asked the program to quit.
-static volatile sig_atomic_t came[SIGNAL_COUNT]; // Signals that nobody has taken yet.
-static char signal_stack[SIGNAL_STACK_BYTES];    // For handlers after the stack has overflowed.
+static volatile sig_atomic_t came[SIGNAL_COUNT]; // True for a signal that is not reported yet.
+static char signal_stack[SIGNAL_STACK_BYTES];    // Handlers of crashes run on this stack.
 
 // --- restoring ---------------------------------------------------------------------------------
 // Signal handlers call the functions of this part, so they use async-signal-safe functions only.
@@ -90,7 +90,7 @@ static void restore(int when) {
     }
 }
 
-// Wakes the thread that waits for events. A full pipe wakes it as well.
+// Wakes the thread that waits for events. A full pipe wakes the thread as well.
 static void wake_reader(void) {
     const int error = errno;
     const ssize_t written = write(mode.wake[1], "", 1);

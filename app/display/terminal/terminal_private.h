@@ -20,8 +20,8 @@ int dip_terminal_keys_read(const uint8_t *bytes, int count, bool ended, DipEvent
 // --- terminal_mode.c -----------------------------------------------------------------------------
 // A process has one mode: all these functions concern the same terminal. The terminal gets back its
 // settings, its screen and its cursor when the process exits, crashes or is ended by a signal that
-// the mode takes over (terminal_mode.c), but not by SIGKILL, for example. It gets nothing back
-// while another process group, such as the shell's, has the terminal.
+// the mode takes over (terminal_mode.c), but not by SIGKILL, for example. The terminal gets nothing
+// back while another process group, such as the shell's, has the terminal.
 
 // What signals have asked for, as bits.
 enum {
@@ -32,11 +32,11 @@ enum {
     DIP_TERMINAL_RESUME = 8
 };
 
-// Enters the mode for pictures and takes over the signals. input and output: file descriptors of
-// the same terminal. Fails with RUNTIME.
+// Enters the mode for pictures and takes over the signals. `input` and `output` are file
+// descriptors of the same terminal. Fails with RUNTIME.
 bool dip_terminal_mode_enter(int input, int output, DipError *err);
 
-// Restores the terminal and gives the signals back.
+// Restores the terminal, and gives each signal the action that it had before the mode was entered.
 void dip_terminal_mode_leave(void);
 
 // Restores the terminal, stops the process as Ctrl+Z does, and enters the mode again when the
@@ -46,7 +46,8 @@ void dip_terminal_mode_suspend(void);
 // Sets the mode again, because another program may have changed it.
 void dip_terminal_mode_renew(void);
 
-// Returns what signals have asked for since the last call, and forgets it. QUIT is not forgotten.
+// Returns what signals have asked for since the last call, and forgets all of these requests but
+// QUIT.
 unsigned dip_terminal_mode_take_signals(void);
 
 // Returns a file descriptor that has something to read when a signal has come.
@@ -59,9 +60,10 @@ bool dip_terminal_mode_write(const char *bytes, size_t count);
 // --- terminal_writer.c ---------------------------------------------------------------------------
 // The writer remembers what the terminal shows and encodes only the cells that differ. A cell shows
 // two pixels of the picture, one above the other, as a half block (U+2580 or U+2584, or a space if
-// both have the same colour) if the terminal has colours and UTF-8, otherwise as their mean.
-// Colours are rounded to the terminal's palette, or in true colour to 64 values per channel, before
-// cells are compared, so a change that is hard to see costs nothing.
+// both have the same colour) if the terminal has colours and UTF-8, otherwise as one character or
+// colour that stands for the mean of both pixels. Colours are rounded to the terminal's palette, or
+// in true colour to 64 values per channel, before cells are compared, so a change that is hard to
+// see costs nothing.
 
 // The environment variables that describe a terminal. A variable that is not set is NULL.
 typedef struct DipTerminalEnvironment {
@@ -81,12 +83,13 @@ DipTerminalColours dip_terminal_best_colours(const DipTerminalEnvironment *envir
 // Returns whether the locale is not set or its character set is UTF-8, which has half blocks.
 bool dip_terminal_has_utf8(const DipTerminalEnvironment *environment);
 
-// Returns false if the terminal has no escape sequences that place characters.
+// Returns whether the terminal has escape sequences that place characters. A terminal whose TERM is
+// not set or is "dumb" has none.
 bool dip_terminal_can_place(const DipTerminalEnvironment *environment);
 
 // A cell as the terminal shows it.
 typedef struct DipTerminalCell {
-    uint32_t code;  // Code point; 0: not known.
+    uint32_t code;  // Code point; 0 if it is not known what the cell shows.
     uint32_t ink;   // 0xRRGGBB or an index in the palette; 0 for a space and without colours.
     uint32_t paper; // 0xRRGGBB or an index in the palette; without colours, 1 is reverse video.
 } DipTerminalCell;
@@ -94,14 +97,14 @@ typedef struct DipTerminalCell {
 // Zero-initialise a writer, set its first two fields, and call dip_terminal_writer_resize.
 typedef struct DipTerminalWriter {
     DipTerminalColours colours; // Not AUTO.
-    bool utf8;                  // False: the terminal shows ASCII only.
+    bool utf8;                  // False if the terminal shows ASCII only.
 
     int columns;
     int rows;
     DipTerminalCell *shown; // Owned: what the terminal shows.
     char *bytes;            // Owned: the bytes of the last frame.
     size_t count;
-    // The colours in which, and the place at which, the terminal writes its next character.
+    // The terminal writes its next character in the colours of `pen` and at this column and row.
     DipTerminalCell pen;
     int column;
     int row;

@@ -1,4 +1,4 @@
-// Finds out from the environment what a terminal can show, and encodes frames for it.
+// Finds out from the environment what a terminal can show, and encodes frames for the terminal.
 #include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
@@ -275,7 +275,7 @@ static void put_place(DipTerminalWriter *writer, int column, int row) {
     writer->column = column;
 }
 
-// Appends the parameters that set a colour. layer: 38 for the ink, 48 for the paper.
+// Appends the parameters that set a colour. `layer` is 38 for the ink and 48 for the paper.
 static void put_colour(DipTerminalWriter *writer, uint32_t layer, uint32_t colour) {
     put_number(writer, layer);
     if (writer->colours == DIP_TERMINAL_256) {
@@ -312,7 +312,7 @@ static void put_pen(DipTerminalWriter *writer, uint32_t ink, uint32_t paper) {
     put_text(writer, "m");
 }
 
-// Shows two colours in one cell. Of two characters, it takes the one that needs fewer new colours:
+// Shows two colours in one cell. Of two characters, writes the one that needs fewer new colours:
 // the upper half block, or the lower half block with ink and paper exchanged.
 static void put_halves(DipTerminalWriter *writer, uint32_t upper, uint32_t lower) {
     const DipTerminalCell pen = writer->pen;
