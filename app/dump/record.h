@@ -29,7 +29,7 @@ typedef struct DipDrawnFrame {
     char hashes[DIP_PANE_COUNT][33];
 } DipDrawnFrame;
 
-// Creates a record without frames. All functions that fail do so with MEMORY, except
+// Creates a record without frames. All functions of this file that fail do so with MEMORY, except
 // dip_record_write.
 DipRecord *dip_record_create(DipError *err);
 void dip_record_destroy(DipRecord **record);

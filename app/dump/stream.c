@@ -23,7 +23,7 @@ struct DipStream {
     int width; // Size of the stream's pictures in pixels; 0 before the first frame.
     int height;
     int frame_count;
-    uint8_t *rgb;    // One picture, packed.
+    uint8_t *rgb;    // One picture in packed RGB.
     uint8_t *planes; // The same picture as Y, Cb and Cr; NULL for a raw stream.
 };
 
