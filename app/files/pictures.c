@@ -16,8 +16,9 @@
 
 // --- memory for stb_image_write ------------------------------------------------------------------
 
-// stb_image_write does not check whether an allocation succeeds. If one fails, a longjmp leaves the
-// library, and all blocks that it has allocated are freed. A Block is the header of such a block.
+// stb_image_write does not check whether an allocation succeeds. If an allocation fails, a longjmp
+// leaves the library, and all blocks that the library has allocated are freed. A Block is the
+// header of such a block.
 typedef struct Block {
     alignas(max_align_t) struct Block *next;
     struct Block *previous;
@@ -158,9 +159,9 @@ bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int h
 
 // --- chunks of PNG -------------------------------------------------------------------------------
 
-// Offsets and sizes in a PNG file: the signature, the chunk IHDR, then the next chunk.
+// Offsets and sizes in a PNG file, which begins with the signature and the chunk IHDR.
 enum {
-    PNG_HEADER_TYPE = 12,  // The letters "IHDR".
+    PNG_HEADER_TYPE = 12,  // Offset of the letters "IHDR".
     PNG_COLOUR_TYPE = 25,  // A byte of IHDR: 0 for grey, 3 for indices into a palette.
     PNG_HEADER_CRC = 29,   // Checksum of the bytes from PNG_HEADER_TYPE on.
     PNG_AFTER_HEADER = 33, // End of IHDR, where the palette (the chunk PLTE) belongs.

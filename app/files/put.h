@@ -1,9 +1,9 @@
 // Writes text as HTML, SVG, a script, CSV or plain text for a terminal. Inserted texts are escaped,
 // so that a name from a file, for example, is shown and never acts as markup or code.
 //
-// A `format` is that of printf, with the conversions d, lld, u, zu, f, g, e, c and s. It must be a
-// string literal, since it is written unchanged; only the texts that it inserts are escaped.
-// Control characters and malformed UTF-8 in these texts become '?'.
+// A `format` is that of printf, with the conversions d, lld, u, zu, f, g, e, c and s. A format must
+// be a string literal, since the format itself is written unchanged; only the texts that it inserts
+// are escaped. Control characters and malformed UTF-8 in these texts become '?'.
 #ifndef DIP_APP_FILES_PUT_H
 #define DIP_APP_FILES_PUT_H
 

@@ -22,7 +22,7 @@ static bool write_all(const char *name, const void *bytes, size_t size_bytes) {
 }
 
 bool dip_whole_file_write(const char *file, const void *bytes, size_t size_bytes, DipError *err) {
-    static atomic_uint serial; // Two threads may write the same file at once.
+    static atomic_uint serial; // Keeps the temporary names of two threads apart.
     const size_t room = strlen(file) + 48;
     char *temporary = malloc(room);
     if (!temporary) {

@@ -1,6 +1,6 @@
 // Makes the parts of a YUV4MPEG2 stream ("y4m"). Such a stream is video without compression, and
-// ffmpeg, mpv and encoders read it. It begins with one header. For each frame, the line "FRAME" and
-// three planes of bytes follow.
+// ffmpeg, mpv and encoders read it. The stream begins with one header. For each frame, the line
+// "FRAME" and three planes of bytes follow.
 //
 // The streams have the format C444: the planes Y, Cb and Cr hold one byte per pixel, so chroma is
 // not subsampled. The matrix is that of ITU-R BT.709, and the range is limited: black is Y = 16,
