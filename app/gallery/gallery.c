@@ -50,7 +50,8 @@ const DipGalleryInfo *dip_gallery_info(int scene) {
     return &scenes[scene]->info;
 }
 
-// Fails with a message that names all scenes and, if one has a similar name, suggests it.
+// Fails with a message that names all scenes. If a scene has a similar name, the message suggests
+// that scene.
 static bool refuse_name(const char *name, DipError *err) {
     const char *names[SCENE_COUNT + 1];
     char known[200] = "";
@@ -313,7 +314,7 @@ static bool check_pose(const DipPose *pose, DipError *err) {
                          "%g is out of range, accepted 1..170", pose->fov_y_deg);
 }
 
-// Returns a sampler that filters as the settings say. The scene sets its texture.
+// Returns a sampler that filters as the settings say. The scene sets the sampler's texture.
 static DipSampler filter_of(const DipQuality *quality) {
     return (DipSampler){
         .max_anisotropy = dip_quality_max_anisotropy(quality),

@@ -1,10 +1,10 @@
 // Draws the gallery: scenes that show what the pipeline can do. Each scene is one file in scenes/.
-// It uses the public headers of renderer/pipeline and renderer/shapes, and is example code for
-// users of these libraries.
+// The gallery uses the public headers of renderer/pipeline and renderer/shapes, and is example code
+// for users of these libraries.
 //
 // A gallery plays one scene, or the tour, which plays all scenes in turn. A pane is a picture with
 // its own size and image-quality settings. The panes of a gallery share the scene's meshes and
-// textures, so only one of them may draw at a time.
+// textures, so only one pane of a gallery may draw at a time.
 //
 // docs/gallery.md describes the scenes and says what each setting does to them. Where comments
 // name a seed, they mean one of the documents, numbered 000 to 004, from which the project and most
@@ -35,13 +35,13 @@ typedef struct DipGalleryInfo {
     const char *title; // The name for users, such as "Blend modes".
     const char *text;  // One or two sentences on what the scene shows.
     // Names of the looks: the scene's variants, between which a key of the preview changes, such as
-    // "flat", "Gouraud" and "Phong". There is at least one.
+    // "flat", "Gouraud" and "Phong". A scene has at least one look.
     const char *const *looks;
     int look_count;
 } DipGalleryInfo;
 
 // In the functions below, `scene` is the index of a scene, 0..dip_gallery_scene_count() - 1. Except
-// for dip_gallery_info, it may also be this value, which stands for the tour.
+// for dip_gallery_info, `scene` may also be DIP_GALLERY_TOUR, which stands for the tour.
 enum { DIP_GALLERY_TOUR = -1 };
 
 int dip_gallery_scene_count(void);
@@ -98,8 +98,8 @@ typedef struct DipGalleryPaneDef {
 DipGalleryPane *dip_gallery_pane_create(const DipGalleryPaneDef *def, DipError *err);
 void dip_gallery_pane_destroy(DipGalleryPane **pane);
 
-// Change the settings or the size from the next frame on. Fail as dip_gallery_pane_create does, and
-// then change nothing.
+// These two functions change the settings or the size from the next frame on. A function that fails
+// changes nothing; its errors are those of dip_gallery_pane_create.
 bool dip_gallery_pane_set_quality(DipGalleryPane *pane, const DipQuality *quality, DipError *err);
 bool dip_gallery_pane_resize(DipGalleryPane *pane, int width, int height, DipError *err);
 
@@ -110,8 +110,8 @@ DipQuality dip_gallery_pane_quality(const DipGalleryPane *pane);
 void dip_gallery_pane_set_frame_index(DipGalleryPane *pane, uint64_t frame_index);
 
 // Draws the scene from a pose at a time. The frame is the same to the bit for any number of threads
-// and any instruction set. The pane owns the frame's pixels, which are valid until it draws again,
-// changes its size or is destroyed. Fails with RANGE (a pose that is not finite or has no
+// and any instruction set. The pane owns the frame's pixels, which are valid until the pane draws
+// again, changes its size or is destroyed. Fails with RANGE (a pose that is not finite or has no
 // orientation, a field of view out of range), MEMORY, or the error of an asset that the tour's next
 // scene needs.
 bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t time_ns,

@@ -1,5 +1,5 @@
-// Declares what a scene of the gallery consists of, and what it is given to draw a frame. Also
-// declares the kit, which is the code that several scenes share. It makes meshes and textures,
+// Declares what a scene of the gallery consists of, and what the scene is given to draw a frame.
+// Also declares the kit, which is the code that several scenes share. It makes meshes and textures,
 // turns a pose into matrices, turns image-quality settings into a pass and samplers, and has the
 // vertex shader that most scenes use.
 #ifndef DIP_APP_GALLERY_KIT_KIT_H
@@ -19,7 +19,7 @@ typedef enum DipKitShape {
     DIP_KIT_NO_SHAPE, // The scene makes the mesh itself or has none.
     DIP_KIT_SPHERE,   // Arguments: radius, slices, stacks.
     DIP_KIT_BOX,      // Arguments: lengths along x, y and z.
-    DIP_KIT_PRISM,    // Arguments: radius, height, sides, 1 for smooth normals or 0.
+    DIP_KIT_PRISM,    // Arguments: radius, height, sides, and 1 for smooth or 0 for flat normals.
     DIP_KIT_PLANE,    // Arguments: lengths along x and z, columns, rows.
     DIP_KIT_QUAD,     // Arguments: width, height.
     // The die of seed 001 (gallery.h): a cube with edges of length 1. It has no arguments. Each
@@ -38,7 +38,7 @@ typedef struct DipKitMeshDef {
 // Makes the shape DIP_KIT_DIE. The caller frees it (dip_shape_free).
 bool dip_kit_die_shape(DipShape *shape, DipError *err);
 
-// Makes a mesh from a shape and frees the shape, even if it fails.
+// Makes a mesh from a shape and frees the shape, even on failure.
 bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *err);
 
 // --- textures ------------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ typedef struct DipKitStock {
     DipKitTexture textures[DIP_KIT_TEXTURES];
 } DipKitStock;
 
-// The data of a scene, from opening it to closing it.
+// The data of a scene while the scene is open.
 typedef struct DipGalleryRoom {
     const DipGalleryDef *def; // Definition of the gallery.
     DipKitStock stock;
@@ -152,8 +152,8 @@ typedef struct DipGalleryScene {
 DIP_GALLERY_SCENE_LIST(DIP_GALLERY_DECLARE)
 #undef DIP_GALLERY_DECLARE
 
-// Make and free the meshes and textures that a scene describes. dip_kit_stock_create leaves what it
-// has made in the stock even if it fails.
+// These functions make and free the meshes and textures that a scene describes.
+// dip_kit_stock_create leaves what it has made in the stock even if it fails.
 bool dip_kit_stock_create(DipKitStock *stock, const DipGalleryScene *scene, DipError *err);
 void dip_kit_stock_free(DipKitStock *stock);
 
@@ -174,7 +174,7 @@ typedef struct DipKitCamera {
     float eye[3];      // Position in world space.
 } DipKitCamera;
 
-// Makes the matrices of the view's pose.
+// Makes the matrices of a camera that has the view's pose.
 bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double near_distance,
                     DipError *err);
 
@@ -183,7 +183,7 @@ bool dip_kit_camera(DipKitCamera *camera, const DipGalleryView *view, double nea
 bool dip_kit_look_at(DipKitCamera *camera, const DipGalleryCamera *from, const DipPerspective *lens,
                      DipError *err);
 
-// Return a * b and a * b * c, which apply the last matrix first.
+// These functions return the products a * b and a * b * c, which apply the last matrix first.
 DipMatrix dip_kit_chain(DipMatrix a, DipMatrix b);
 DipMatrix dip_kit_chain3(DipMatrix a, DipMatrix b, DipMatrix c);
 
@@ -213,7 +213,7 @@ enum {
     DIP_KIT_NORMAL = 2, // Normal x, y, z in world space, not of unit length.
     DIP_KIT_WORLD = 5,  // Position x, y, z in world space.
     DIP_KIT_VARYINGS = 8,
-    DIP_KIT_VALUES_ONLY = 6 // The last six, normal and position, have no derivatives.
+    DIP_KIT_VALUES_ONLY = 6 // The last six varyings, normal and position, have no derivatives.
 };
 
 // Vertex shader for meshes with the attributes of a shape (shapes.h).
@@ -224,9 +224,9 @@ void dip_kit_screen_vertex(const DipVertexBatch *batch);
 
 enum { DIP_KIT_MAX_DRAWS = 32, DIP_KIT_UNIFORM_DOUBLES = 64 };
 
-// A list of draws to which a scene adds its objects, and the camera that sees them. If adding one
-// fails, more can still be added, but dip_kit_show then fails. The draws point into the list's own
-// uniforms, so a list with draws must not be copied.
+// A list of draws to which a scene adds its objects, and the camera that sees them. If adding an
+// object fails, other objects can still be added, but dip_kit_show then fails. The draws point into
+// the list's own uniforms, so a list with draws must not be copied.
 typedef struct DipKitList {
     const DipGalleryView *view;
     DipKitCamera seen; // The camera that sees the draws.
@@ -241,13 +241,13 @@ typedef struct DipKitList {
 DipKitList dip_kit_list(const DipGalleryView *view, double near_distance, DipError *err);
 
 // Adds an object and returns its draw, which the caller may change. `model` takes the object to
-// world space, and the vertex shader is dip_kit_vertex. The list keeps a copy of the uniforms; they
-// begin with a DipKitObject, which this function fills in.
+// world space, and the vertex shader is dip_kit_vertex. The uniforms begin with a DipKitObject. The
+// list keeps a copy of the uniforms, and this function fills in the copy's DipKitObject.
 DipDraw *dip_kit_add_bytes(DipKitList *list, const DipMesh *mesh, const void *uniforms,
                            size_t size_bytes, const DipMatrix *model,
                            DipFragmentShader *fragment_shader);
 
-// Does the same with the size of *uniforms. `uniforms` points to a struct.
+// Calls dip_kit_add_bytes with the size of *uniforms. `uniforms` points to a struct.
 #define dip_kit_add(list, mesh, uniforms, model, fragment_shader)                                  \
     dip_kit_add_bytes(list, mesh, uniforms, sizeof *(uniforms), model, fragment_shader)
 

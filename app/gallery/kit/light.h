@@ -41,19 +41,19 @@ typedef struct DipKitPoints {
 void dip_kit_normalise(const float *const in[3], int count, float (*out)[DIP_FRAGMENT_BATCH]);
 
 // Writes to out[0..2][i] the light of the sky that point i reflects. A surface that faces upwards
-// gets all the light `sky`; an upright surface gets only the share `upright` of it.
+// gets all the light `sky`; an upright surface gets only the share `upright` of this light.
 void dip_kit_light_sky(const float sky[3], float upright, const DipKitMaterial *material,
                        const DipKitPoints *points, float (*out)[DIP_FRAGMENT_BATCH]);
 
 // Adds to out[0..2][i] the diffuse and the specular light that point i reflects. `lit` holds the
-// share of the light that reaches each point, 0..1. If it is NULL, all the light reaches all
+// share of the light that reaches each point, 0..1. If `lit` is NULL, all the light reaches all
 // points.
 void dip_kit_light_add(const DipKitLight *light, const DipKitMaterial *material,
                        const DipKitPoints *points, const float *lit,
                        float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Writes `ambient` to out[0..2][i] for each point i, and adds what the points reflect of several
-// lights.
+// Writes `ambient` to out[0..2][i] for each point i, and adds the light that the points reflect
+// from several lights.
 void dip_kit_light_all(const float ambient[3], const DipKitLight *lights, int light_count,
                        const DipKitMaterial *material, const DipKitPoints *points,
                        float (*out)[DIP_FRAGMENT_BATCH]);

@@ -70,7 +70,7 @@ static DipGalleryCamera camera(double turn) {
 }
 
 // Returns the matrix that takes a sheet to world space. The two sheets of a field circle about the
-// field's middle, half a turn apart. x and y are the middle.
+// field's middle, half a turn apart. `x` and `y` are the coordinates of this middle.
 static DipMatrix sheet_matrix(double x, double y, int sheet, double turn) {
     const double angle = 2.0 * turn + DIP_PI * sheet;
     return dip_kit_chain3(

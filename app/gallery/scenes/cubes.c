@@ -220,7 +220,7 @@ static DipGalleryCamera camera(double turn) {
 }
 
 // Returns the matrix that takes an object to world space. Two objects turn in place. The long one,
-// index 1, moves to the right and comes back at the end of the loop.
+// index 1, moves to the right and comes back by the end of the loop.
 static DipMatrix place(int index, double turn) {
     if (index == 1) {
         const double way = 0.5 - 0.5 * dip_cos(turn);

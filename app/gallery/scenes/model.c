@@ -3,8 +3,8 @@
 //
 // Gouraud and Phong shading differ only in their vertex and fragment shaders. Flat shading uses
 // Gouraud's shaders with other meshes, whose triangles share no vertices. A directional, a point
-// and a spot light shine on the model. The looks (the scene's variants) show it textured, plain,
-// and as a lit wireframe. Each vertex of a mesh holds its positions and normals in two
+// and a spot light shine on the model. The looks (the scene's variants) show the model textured,
+// plain, and as a lit wireframe. Each vertex of a mesh holds its positions and normals in two
 // successive key frames, and the vertex shader blends them.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
@@ -311,7 +311,7 @@ static DipDraw *add_copy(int copy, DipKitList *list) {
     draw->varying_count = look->gouraud ? LIT_VARYINGS : DIP_KIT_VARYINGS;
     draw->value_only_varying_count = look->gouraud ? 3 : DIP_KIT_VALUES_ONLY;
     draw->bounds_to_clip = NULL; // The mesh's box holds only the first of its two key frames, so
-                                 // the draw is not culled by it.
+                                 // the draw is not culled by this box.
     return draw;
 }
 

@@ -4,8 +4,8 @@
 // The phone is a box, as the die is. All faces of the phone show the same texture, which is
 // therefore stretched on the narrow sides. The display is a quad just above the box. In the seed,
 // the display shows a picture that the phone took. Here it shows what the phone's camera sees: a
-// first pass draws the die and the table from there, and the display's shader samples this picture,
-// the photo.
+// first pass draws the die and the table from the position of that camera, and the display's shader
+// samples this picture, the photo.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 #include "renderer/base/pages.h"
@@ -45,7 +45,7 @@ static void shade(DipFragmentBatch *batch) {
     dip_kit_light_texture(batch, own_colour, light);
 }
 
-// Shows the photo, with a shutter button over its lower part, which is darkened.
+// Shows the photo, darkens the lower part of the photo, and shows a shutter button there.
 static void shade_display(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float *u = batch->varying[DIP_KIT_UV];

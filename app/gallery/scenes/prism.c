@@ -65,7 +65,7 @@ static void twist(const DipDomainBatch *batch) {
     }
 }
 
-// Makes the prism's mesh, unless the last one was made for the same time and look, for example by
+// Makes the prism's mesh, unless the last mesh was made for the same time and look, for example by
 // the other pane.
 static bool prepare_mesh(const DipGalleryView *view, DipError *err) {
     Content *content = view->content;

@@ -3,8 +3,8 @@
 // shader"; gallery.h says what a seed is.
 //
 // The first quad shows rings that move outwards. The second shows a flame, whose light is summed
-// along rays. The third shows a wobbling sphere over a fluid, which are found by marching along
-// rays. Multisampling alone does not help here, since it shades each pixel once. Instead,
+// along rays. The third shows a wobbling sphere over a fluid; marching along rays finds both
+// surfaces. Multisampling alone does not help here, since it shades each pixel once. Instead,
 // derivatives tell how many pixels wide the rings are. Rings narrower than five pixels begin to
 // fade out, and rings of two pixels have vanished.
 #include "app/gallery/kit/kit.h"
@@ -46,7 +46,7 @@ static void shade_rings(DipFragmentBatch *batch) {
 // --- flame ---------------------------------------------------------------------------------------
 
 // Shades a flame: sums its light along rays that cross it from front to back. The flame is round,
-// and wide below and narrow above. Waves that rise with time move its surface.
+// and wide below and narrow above. Waves that rise with time move the flame's surface.
 static void shade_flame(DipFragmentBatch *batch) {
     const Uniforms *uniforms = batch->uniforms;
     const float time = uniforms->turns;
@@ -106,7 +106,7 @@ static inline float scene_at(DipKitVector p, float turns) {
     return dip_kit_least(sphere_at(p, turns), above_fluid(p, turns));
 }
 
-// Returns a point between a and b. If `share` is 0, this is a; if it is 1, this is b.
+// Returns a point between a and b. If `share` is 0, the point is a; if it is 1, the point is b.
 static inline DipKitVector point_between(DipKitVector a, DipKitVector b, float share) {
     return dip_kit_plus(a, dip_kit_times(dip_kit_minus(b, a), share));
 }

@@ -1,11 +1,11 @@
 // Draws the gallery scene "shadow": objects in the light of a moving lamp, with shadow mapping. It
 // comes from seed 000; gallery.h says what a seed is.
 //
-// A first pass draws the scene as the lamp sees it. It has no colour target and stores only depths,
-// the shadow map. The second pass draws the picture. Its fragment shader takes each point to the
-// lamp's clip space and compares the point's depth there with the stored one. The looks (the
-// scene's variants) change the map's resolution and its filter: the nearest filter shows the texels
-// of the map, and the linear filter averages four comparisons.
+// A first pass draws the scene as the lamp sees it. This pass has no colour target and stores only
+// depths, the shadow map. The second pass draws the picture. Its fragment shader takes each point
+// to the lamp's clip space and compares the point's depth there with the stored depth. The looks
+// (the scene's variants) change the map's resolution and its filter: the nearest filter shows the
+// texels of the map, and the linear filter averages four comparisons.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 
@@ -24,7 +24,7 @@ static const Look shadow_looks[] = {
     {256, DIP_SHADOW_NEAREST},
     {2048, DIP_SHADOW_NEAREST},
 };
-// The lamp and its shadow map. All objects of a frame share it.
+// The lamp and its shadow map. All objects of a frame share the lamp.
 typedef struct Lamp {
     float to_clip[16]; // From world space to the lamp's clip space.
     DipKitLight light;
@@ -85,7 +85,7 @@ static void destroy(void *pointer) {
     dip_depth_destroy(&content->depth);
 }
 
-// Makes a shadow map of texels x texels, unless the last frame had one of this size.
+// Makes a shadow map of texels x texels, unless the last frame had a map of this size.
 static bool prepare_map(const DipGalleryView *view, int texels, DipError *err) {
     Content *content = view->content;
     if (content->depth && dip_depth_width(content->depth) == texels) {
@@ -106,7 +106,8 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.7, 0.0}};
 }
 
-// Returns the matrix that takes object `index` to world space. Sets its mesh and material.
+// Returns the matrix that takes object `index` to world space. Sets *mesh and *material to those of
+// the object.
 static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *material) {
     static const float colours[][3] = {
         {0.80f, 0.30f, 0.16f}, {0.18f, 0.42f, 0.72f}, {0.85f, 0.62f, 0.20f}, {0.30f, 0.55f, 0.28f}};

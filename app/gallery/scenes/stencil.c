@@ -3,10 +3,10 @@
 //
 // The mirror in the floor is drawn in three steps. First, its surface writes 1 into the stencil
 // buffer and no colour. Then the objects are drawn upside down, but only where the stencil value is
-// 1. At last, the glass is blended over them. For the outline, the middle object writes 2, and is
-// then drawn a little larger and in one colour where the stencil value is not 2. A small picture in
-// the corner, the inset, shows the stencil values that the mirror and the middle object write, each
-// value in another colour.
+// 1. Last, the glass is blended over the mirrored objects. For the outline, the middle object
+// writes 2, and is then drawn a little larger and in one colour where the stencil value is not 2. A
+// small picture in the corner, the inset, shows the stencil values that the mirror and the middle
+// object write, each value in another colour.
 #include "app/gallery/kit/kit.h"
 #include "app/gallery/kit/light.h"
 
@@ -87,7 +87,8 @@ static DipGalleryCamera camera(double turn) {
         .target = {0.0, 0.6, 0.0}};
 }
 
-// Returns the matrix that takes object `index` to world space. Sets its mesh and material.
+// Returns the matrix that takes object `index` to world space. Sets *mesh and *material to those of
+// the object.
 static DipMatrix place(int index, double turn, int *mesh, DipKitMaterial *material) {
     static const float colours[OBJECTS][3] = {{0.80f, 0.16f, 0.13f},
                                               {0.16f, 0.42f, 0.75f},
@@ -151,8 +152,8 @@ static bool draw_picture(const DipGalleryView *view, DipError *err) {
     const DipMatrix grown = dip_kit_chain(place(OUTLINED, view->turn, &mesh, &material),
                                           dip_matrix_scaling(1.09, 1.09, 1.09));
     DipKitList list = dip_kit_list(view, 0.1, err);
-    // The mirrored objects lie below the floor, so they must be drawn before it. The glass then
-    // replaces their depths, so that the floor does not hide them.
+    // The mirrored objects lie below the floor, so they must be drawn before the floor. The glass
+    // then replaces their depths, so that the floor does not hide them.
     add(&list, PLANE, &mirror, &mirror_look, shade_flat, &mark_mirror);
     add_objects(&list, dip_matrix_reflection(up, 0.0), true);
     add(&list, PLANE, &mirror, &mirror_look, shade_flat, &glass);

@@ -208,7 +208,7 @@ static bool draw(const DipGalleryView *view, DipError *err) {
             outline->vertex_shader = outline_vertex;
             outline->varying_count = outline->value_only_varying_count = 0;
             outline->bounds_to_clip = NULL; // The moved vertices leave the mesh's box, so the draw
-                                            // is not culled by it.
+                                            // is not culled by this box.
             outline->cull = DIP_CULL_FRONT;
         }
     }

@@ -5,8 +5,8 @@
 // and far away its texels look very long and narrow. In two of the three looks (the scene's
 // variants), the colours show which mip level each pixel reads: dark red is the sharpest, then red,
 // orange, yellow, green, blue and purple. With anisotropic filtering, the sharp levels reach
-// farther. Without advanced filtering (aaf=off), they reach less far at the diagonals, because the
-// level then depends on the angle. With advanced filtering, every ring has one colour.
+// farther. Without advanced filtering (aaf=off), the sharp levels reach less far at the diagonals,
+// because the level then depends on the angle. With advanced filtering, every ring has one colour.
 #include "app/gallery/kit/kit.h"
 
 enum { SIDES = 96, ROUND = 6 };
@@ -81,8 +81,9 @@ static bool create(DipGalleryRoom *room, DipError *err) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-// Returns a camera near the axis of the tube that looks along it, a little to the side. The tube
-// moves instead of the camera. In one loop it moves by a whole number of the texture's repeats.
+// Returns a camera near the axis of the tube that looks along the axis, a little to the side. The
+// tube moves instead of the camera. In one loop the tube moves by a whole number of the texture's
+// repeats.
 static DipGalleryCamera camera(double turn) {
     return (DipGalleryCamera){.eye = {0.25 * dip_cos(turn), 0.25 * dip_sin(turn), 0.0},
                               .target = {0.6 * dip_sin(turn), 0.4 * dip_sin(2.0 * turn), -10.0}};

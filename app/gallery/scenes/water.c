@@ -4,7 +4,7 @@
 // drawn last, either blended over the picture or with refraction. With refraction, it is drawn in a
 // second pass, whose shader reads the first pass's picture a little beside the pixel; the waves of
 // a normal map determine how far. Fresnel's term mixes in the colour of the sky. The second pass
-// keeps the depths and the colours of all samples of the first one, so that edges which the water
+// keeps the depths and the colours of all samples of the first pass, so that edges which the water
 // crosses are as smooth as in one pass.
 #include "app/gallery/kit/kit.h"
 #include "assets/model.h"
@@ -161,8 +161,8 @@ static inline float fresnel(float cosine) {
     return 0.02f + 0.98f * left * left * left * left * left;
 }
 
-// Writes to `under` the colour that each fragment shows through the water. Reads it from the
-// picture beside the fragment, at a distance that is proportional to the slope of the waves.
+// Writes to `under` the colour that each fragment shows through the water. Reads this colour from
+// the picture beside the fragment, at a distance that is proportional to the slope of the waves.
 static void refract_picture(DipFragmentBatch *batch, const Water *water,
                             float (*waves)[DIP_FRAGMENT_BATCH],
                             float (*under)[DIP_FRAGMENT_BATCH]) {
@@ -401,8 +401,8 @@ static bool create(DipGalleryRoom *room, DipError *err) {
     return made;
 }
 
-// Makes the first pass's picture, depths and colours of samples. Keeps those of earlier frames if
-// they have this size and number of samples.
+// Makes the first pass's picture, and the depths and colours of its samples. Keeps those of earlier
+// frames if they have this size and number of samples.
 static bool prepare_target(Content *content, const DipTarget *size, int samples, DipError *err) {
     DipTarget *picture = &content->picture;
     if (picture->width != size->width || picture->height != size->height) {
