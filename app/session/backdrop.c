@@ -1,5 +1,5 @@
-// Makes the sphere that shows an environment. Its directions come from renderer/base/trig.h, so it
-// is the same on every machine.
+// Makes the sphere that shows an environment. The positions of its vertices are computed with
+// renderer/base/trig.h, so the sphere is the same on every machine.
 #include "app/session/backdrop.h"
 
 #include "app/session/added_surface.h"

@@ -1,5 +1,5 @@
-// Shows an environment behind a scene: as a sphere around it that is so large that all its points
-// look infinitely far away.
+// Shows an environment behind a scene, on a sphere around the scene. The sphere is so large that
+// its points look infinitely far away.
 #ifndef DIP_APP_SESSION_BACKDROP_H
 #define DIP_APP_SESSION_BACKDROP_H
 
@@ -14,13 +14,14 @@
 typedef struct DipBackdrop {
     DipSceneDef def;
     uint8_t *rgba8;    // The environment, cut off at 1 and encoded as sRGB.
-    float *positions;  // 3 floats for each vertex, and behind them, 2 texture coordinates for each.
+    float *positions;  // 3 coordinates for each vertex, then 2 texture coordinates for each vertex.
     uint32_t *indices; // Three for each triangle. The triangles face the sphere's middle.
 } DipBackdrop;
 
-// Adds a sphere that shows the scene's environment. `extent` is the extent of the scene's objects;
-// its middle is the sphere's middle, and the sphere's radius follows from its size. Returns NULL
-// and fills *err with DIP_ERROR_MEMORY when memory runs out. The scene must outlive the backdrop.
+// Adds a sphere that shows the scene's environment; the scene must have one. `extent` is the extent
+// of the scene's objects. The sphere's middle is the middle of the extent, and the sphere's radius
+// is proportional to the size of the extent. Returns NULL and fills *err with DIP_ERROR_MEMORY when
+// memory runs out. The scene must outlive the backdrop.
 DipBackdrop *dip_backdrop_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
 // *backdrop may be NULL and becomes NULL.
 void dip_backdrop_destroy(DipBackdrop **backdrop);

@@ -13,13 +13,13 @@
 
 enum { GRID = 256 }; // Texels of the shade, and cells of the grid of heights, along each side.
 
-// Distance from the model down to the ground, as a share of the model's size. It keeps the model's
-// underside and the ground from lying in one plane.
+// Distance from the model down to the ground, as a share of the model's size. This gap keeps the
+// model's underside and the ground from lying in one plane.
 static const double gap = 5e-4;
 
 // The shade is the product of these layers. In a layer, a surface that is lower than `reach` times
-// the model's size darkens the ground around it by up to `strength`; the higher it is, the less it
-// darkens. So low surfaces leave a small dark shade, and high surfaces a wide faint one.
+// the model's size darkens the ground around it by up to `strength`; the higher the surface is, the
+// less it darkens. So low surfaces leave a small dark shade, and high surfaces a wide faint one.
 static const struct {
     double reach;
     double strength;
@@ -121,8 +121,8 @@ static void box_mesh(const DipMovingMesh *moving, float corners[24], DipMeshDef 
     mesh->index_count = 9;
 }
 
-// Makes the boxed scene. It is the scene itself if no mesh moves, if a moving mesh has no box, or
-// if memory runs out.
+// Makes the boxed scene. The result is the scene itself if no mesh moves, if a moving mesh has no
+// box, or if memory runs out.
 static void make_boxed(const DipSceneDef *def, BoxedScene *boxed) {
     const DipMotionDef *motion = def->motion;
     const size_t moving = motion ? (size_t)motion->mesh_count : 0;
@@ -194,7 +194,8 @@ typedef struct Grid {
     double floor;              // The height that counts as 0.
     double most;               // Surfaces that lie higher do not count.
     bool facing_up;            // True to leave out surfaces that do not face up.
-    float height[GRID * GRID]; // Height of each cell's lowest surface; more than `most` if none.
+    float height[GRID * GRID]; // Height of each cell's lowest surface; greater than `most` if the
+                               // cell has no surface up to `most`.
 } Grid;
 
 static int cell_at(const Grid *grid, int axis, double at) {
@@ -209,8 +210,9 @@ static void lower(Grid *grid, int column, int row, double height) {
     }
 }
 
-// Lowers the heights of the cells whose centres lie below a triangle. Does the same for the cells
-// of its corners, so that no triangle is too small to count.
+// Draws a triangle into the grid: each cell keeps the lesser of its height and the triangle's
+// height. The triangle covers the cells whose centres lie in it, seen from above, and the cells of
+// its corners, so that no triangle is too small to count.
 static void draw_triangle(void *context, const Point p[3]) {
     Grid *grid = context;
     const double x1 = p[1].at[0] - p[0].at[0], z1 = p[1].at[2] - p[0].at[2];
@@ -267,7 +269,7 @@ static double height_of(const DipExtent *extent) {
     return extent->high[1] - extent->low[1];
 }
 
-// Returns the size of the model. Lengths on the ground are multiples of it.
+// Returns the size of the model. Lengths on the ground are multiples of this size.
 static double size_of(const DipExtent *extent) {
     return fmax(width_of(extent), 0.7 * height_of(extent));
 }

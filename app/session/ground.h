@@ -1,6 +1,6 @@
-// Adds a ground to models that stand in empty space. It is a plain square below the model, in the
-// colour of the background. A soft shade on it shows where the model touches the ground or is near
-// it.
+// Adds a ground to models that stand in empty space. The ground is a plain square below the model,
+// in the colour of the background. A soft shade on the ground shows where the model touches the
+// ground or comes near it.
 #ifndef DIP_APP_SESSION_GROUND_H
 #define DIP_APP_SESSION_GROUND_H
 

@@ -43,7 +43,7 @@ static const char *path_name(const DipSession *session, bool free_camera) {
         return "free camera";
     }
     if (session->shows_gallery && session->gallery_path) {
-        return "scene"; // A scene's own path, also where --path or --pose began with another.
+        return "scene"; // The path of the gallery's scene has replaced that of --path or --pose.
     }
     if (options && options->has_pose) {
         return "pose";

@@ -11,8 +11,8 @@
 //     Current size         "640x480", of the drawn frame
 //     Current hash         hash of the drawn frame, as `dump --hash` prints it
 //
-// A picture has the last three texts for each pane that it shows. For the requested pane, their
-// names begin with "Requested".
+// A picture has the last three texts for each pane that it shows. For the requested pane, the names
+// of these texts begin with "Requested".
 #ifndef DIP_APP_SESSION_PICTURE_TEXTS_H
 #define DIP_APP_SESSION_PICTURE_TEXTS_H
 

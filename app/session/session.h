@@ -43,14 +43,14 @@ typedef struct DipStartTimes {
 #undef DIP_START_TIME_FIELD
     int64_t begin_ns;  // When the program started.
     int64_t opened_ns; // When everything was loaded.
-    int64_t ended_ns;  // When the command had done its work and began to free its memory; 0 if it
-                       // does not say.
+    int64_t ended_ns;  // When the command had done its work and began to free its memory; 0 if the
+                       // command does not say when.
 } DipStartTimes;
 
 // Returns the milliseconds that have passed since begin_ns, which is a time by dip_clock_ns.
 double dip_start_times_since_ms(int64_t begin_ns);
 
-// Fills in the parts first_frame and total at the first call. Call it after every frame.
+// Fills in the parts first_frame and total at the first call. Call this function after every frame.
 void dip_start_times_frame(DipStartTimes *times);
 
 // Formats the parts as "start, ms: ini 0.4 import 21.3 ...", for --timing.
@@ -64,9 +64,9 @@ typedef struct DipSessionDef {
     const DipImporter *importer;      // Imports the models; NULL to import them in this process.
                                       // Borrowed until the session is closed.
     const char *log;                  // File of --log, or NULL if the ini's log file is used.
-    bool scene;                       // Load the models and the camera paths.
-    bool renderers;                   // Make a renderer for each pane. This needs the scene.
-    bool keep_model;                  // Keep the models' data, which the reference renderer reads.
+    bool scene;                       // True to load the scene's models and the camera paths.
+    bool renderers;                   // True to make a renderer for each pane; needs `scene`.
+    bool keep_model;                  // True to keep the models' data for the reference renderer.
     int64_t begin_ns;                 // When the program started, by dip_clock_ns.
 } DipSessionDef;
 
@@ -79,7 +79,7 @@ typedef struct DipSessionCamera {
 
 // The animations of the models, of which the user can choose one.
 typedef struct DipSessionAnimations {
-    char **names; // Each once, in the order of the files.
+    char **names; // Names of the animations, each once, in the order of the files.
     int count;
     int playing; // Index of the animation that the models show, or -1 if they show none.
 } DipSessionAnimations;
@@ -98,8 +98,8 @@ typedef struct DipSession {
     bool force_all_effects;
     DipModel *model;                // NULL unless the session keeps it for the reference renderer.
     DipGround *ground;              // The ground below that model; NULL if it has none.
-    DipBackdrop *backdrop;          // The environment behind it; NULL if it is not shown.
-    DipEnvironmentDef *environment; // What the models reflect, from the ini; NULL if it has none.
+    DipBackdrop *backdrop;          // The environment behind that model; NULL if it is not shown.
+    DipEnvironmentDef *environment; // What the models reflect; NULL if no environment is used.
     // The model's scene with its background and sky, and with the ground or the backdrop. Points
     // into `model`, `ground`, `backdrop` and `environment`.
     DipSceneDef scene_def;
@@ -117,14 +117,14 @@ typedef struct DipSession {
     DipSessionCamera *cameras;
     int camera_count;
     DipPainter *renderers[DIP_PANE_COUNT]; // NULL unless the def asks for renderers.
-    // The panes of the next frames may copy each other's pixels (dip_renderer_copy_shading). Set it
-    // for frames that are drawn to be seen. Clear it where each pane's own time or work is
-    // measured.
+    // True if the panes of the next frames may copy each other's pixels
+    // (dip_renderer_copy_shading). Callers set this field for frames that are drawn to be seen, and
+    // clear it where they measure each pane's own time or work.
     bool shares_shading;
-    unsigned shared_frames; // Number of frames drawn with shares_shading, which tells whose turn it
-                            // is to copy.
-    // The session shows a scene of the gallery. If it was opened with one, `scene` is NULL, because
-    // no models are loaded.
+    unsigned shared_frames; // Number of frames drawn with shares_shading. This number determines
+                            // which pane copies next.
+    // True if the session shows a scene of the gallery. If the session was opened with such a
+    // scene, `scene` is NULL, because no models are loaded.
     bool shows_gallery;
     int gallery_scene;   // Index of the scene, or DIP_GALLERY_TOUR.
     DipGallery *gallery; // What the renderers draw; NULL if they draw models or do not exist.
@@ -132,7 +132,7 @@ typedef struct DipSession {
     DipCamTrack models_track; // Keeps the track of the models while the session shows the gallery.
     char *assets;             // Folder of the shipped assets.
     DipStartTimes times;
-    bool orbiting; // The camera orbits the model, because no camera path was given.
+    bool orbiting; // True if the camera orbits the model, because no camera path was given.
 } DipSession;
 
 // Loads everything that the def asks for. Adds every error and warning to *faults, with its file
@@ -141,7 +141,7 @@ bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorLis
 void dip_session_close(DipSession *session);
 
 // Loads `model` and `scene_def` for the reference renderer, unless the session has them already. A
-// session does not keep them by default, because their pictures take tens of megabytes.
+// session does not keep them by default, because the models' pictures take tens of megabytes.
 bool dip_session_keep_model(DipSession *session, DipError *err);
 
 // Returns the file of the first model, from the command line or the ini, or "" if there is none. If
@@ -160,7 +160,7 @@ DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, D
 bool dip_session_step_scene(DipSession *session, int step, DipError *err);
 
 // Returns the title of the gallery scene that the session shows at the time play_ns, such as "Blend
-// modes". Returns "Models" if it shows models.
+// modes". Returns "Models" if the session shows models.
 const char *dip_session_scene_title(const DipSession *session, int64_t play_ns);
 
 // Returns the name of a variant of the gallery scene that the session shows at the time play_ns.

@@ -59,7 +59,7 @@ static bool read_look(void *fields, const DipOptionRow *row, const char *value, 
 #define PATH_ENDS                 DIP_CAMPATH_END_LIST(NAME_AND_TEXT)
 
 // Reads seven numbers that are separated by spaces, tabs or commas. Returns false if a part is not
-// a number, or if there are more or fewer.
+// a number, or if there are more or fewer than seven numbers.
 static bool read_seven(const char *text, double numbers[7]) {
     static const char separators[] = " \t,";
     int count = 0;

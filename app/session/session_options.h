@@ -24,7 +24,7 @@ typedef struct DipSessionOptions {
     const char *models[DIP_MAX_MODELS];
     int model_count;
     DipUpAxis up;   // Axis of the model files that points up.
-    bool no_ground; // Models of the command line get no ground.
+    bool no_ground; // True if models of the command line get no ground.
     bool has_shading;
     DipModelShading shading; // Where the light of lit surfaces is computed.
     int look;                // Variant of the gallery's scene, counted from 0.
@@ -54,7 +54,7 @@ typedef struct DipSessionOptions {
     int threads; // Number of threads; 0 for all processors.
     bool has_isa;
     DipIsa isa;
-    bool timing; // At the end, print how long starting and ending took.
+    bool timing; // True to print at the end how long starting and ending took.
 } DipSessionOptions;
 
 // Tables of the options in this struct. Each command takes the tables that make sense for it.

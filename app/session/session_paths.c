@@ -214,8 +214,8 @@ static bool make_pose(DipSession *session, DipErrorList *faults) {
 }
 
 // Refuses a model that is too small to be drawn. The orbit fills the picture with the model, so the
-// camera would come nearer to it than the least distance of a near plane (DIP_MIN_NEAR_M). Accepts
-// a model that is a single point, because the orbit treats it as if it had a size.
+// camera would come nearer to the model than the least distance of a near plane (DIP_MIN_NEAR_M).
+// Accepts a model that is a single point, because the orbit treats it as if it had a size.
 static bool check_extent(const DipExtent *extent, const char *file, DipErrorList *faults) {
     const double least = 5e-9;
     double size = 0.0;

@@ -1,5 +1,5 @@
-// Declares the functions that open a session and are private to session*.c. Those that make, load
-// or choose something return false on failure. The list `faults` collects errors and warnings.
+// Declares the functions that open a session and are private to session*.c. Functions that make,
+// load or choose something return false on failure. The list `faults` collects errors and warnings.
 #ifndef DIP_APP_SESSION_SESSION_PRIVATE_H
 #define DIP_APP_SESSION_SESSION_PRIVATE_H
 
@@ -17,8 +17,8 @@ bool dip_session_place_fault(const DipSession *session, const DipConfigFile *fil
                              DipErrorList *faults, const DipError *err);
 
 // Finds the file or folder `name` that comes with Diptych, and writes its path to `file`. Looks in
-// the source tree if the program runs from a build folder, and in the share folder if it is
-// installed. Returns false if it cannot be read there.
+// the source tree if the program runs from a build folder, and in the share folder if the program
+// is installed. Returns false if `name` cannot be read there.
 bool dip_session_find_shipped(const char *name, char *file, size_t size_bytes);
 
 // Creates the painters of both panes, which draw the gallery, or models if `gallery` is NULL. Even
@@ -57,7 +57,7 @@ void dip_session_free_paths(DipSession *session);
 bool dip_session_choose_gallery(DipSession *session, DipErrorList *faults);
 
 // Makes the camera path of the gallery's scene and a track that plays it. If the user has given a
-// path or a pose, loads that instead. In session_gallery.c.
+// path or a pose, loads that path or makes a path of that pose instead. In session_gallery.c.
 bool dip_session_load_gallery_path(DipSession *session, DipErrorList *faults);
 
 #endif

@@ -1,4 +1,4 @@
-// Loads the models of a session and makes the scene of them.
+// Loads the models of a session and makes the scene that shows them.
 #include "app/session/session_private.h"
 
 #include "assets/model.h"
@@ -34,7 +34,7 @@ static DipSkyDef sky_of(const DipConfig *config) {
     return sky;
 }
 
-// True if some object has the material of a sky.
+// Returns whether some object has the material of a sky.
 static bool has_sky(const DipSceneDef *def) {
     bool found = false;
     for (int i = 0; i < def->object_count; i++) {
@@ -45,7 +45,7 @@ static bool has_sky(const DipSceneDef *def) {
 }
 
 // The background of models that have no surroundings of their own: a light grey, against which dark
-// and bright models stand out. It is the colour of their ground, too.
+// and bright models stand out. This grey is the colour of the models' ground, too.
 static const DipConfigColor plain_background = {{172, 174, 178}};
 
 // Sets the background, the sky, the environment and the near plane. For the ini's models, all four
@@ -141,8 +141,8 @@ static void set_light(const DipSession *session, float ambient_lin[3], DipModelO
     }
 }
 
-// Returns the animation that shall play, or NULL for the first one of each model. The ini chooses
-// the animation of its own models only, not of those that --model names.
+// Returns the animation that shall play, or NULL for the first animation of each model. The ini
+// chooses the animation of its own models only, not of those that --model names.
 static const char *chosen_animation(const DipSession *session) {
     const char *of_ini = session->options->model_count ? "" : session->config.animation.text;
     return session->options->animation ? session->options->animation : of_ini[0] ? of_ini : NULL;
@@ -249,7 +249,7 @@ static void destroy_additions(Additions *added) {
 }
 
 // Shows the environment behind the scene if this is wanted. Otherwise, adds a ground if the models
-// need one and it is wanted. Fails only if memory runs out.
+// need a ground and a ground is wanted. Fails only if memory runs out.
 static bool add_surfaces(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
                          Additions *added, DipError *err) {
     const bool wanted =
