@@ -130,7 +130,7 @@ void dip_canvas_fill(DipCanvas *canvas, DipRect rect, DipColour colour) {
 }
 
 // Returns how much of the pixel x, y lies in a rectangle of the given size with rounded corners, 0
-// to 1. The edge of a corner is smoothed by the distance of the pixel's centre from it.
+// to 1. The edge of a corner is smoothed by the distance of the pixel's centre from the edge.
 static double round_coverage(int x, int y, int width, int height, int radius) {
     if (x < 0 || y < 0 || x >= width || y >= height) {
         return 0.0;

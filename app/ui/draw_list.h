@@ -13,13 +13,13 @@
 
 typedef struct DipDrawList DipDrawList;
 
-// Says which point of a line of text dip_draw_list_text puts at its x: the line's left end, right
-// end or centre.
+// Says which point of a line of text dip_draw_list_text puts at `x`: the line's left end, right end
+// or centre.
 typedef enum DipAlign { DIP_ALIGN_LEFT, DIP_ALIGN_RIGHT, DIP_ALIGN_CENTRE } DipAlign;
 
 enum { DIP_MAX_DAMAGE = 8 };
 
-// Rectangles of the canvas whose pixels changed.
+// Rectangles of the canvas in which pixels may have changed.
 typedef struct DipDamage {
     DipRect rects[DIP_MAX_DAMAGE];
     int count;

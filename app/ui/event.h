@@ -7,8 +7,9 @@
 
 // Codes of keys. If a key types a character, its code is that character's Unicode code point, in
 // lower case and without modifiers: 'a', '1', '.'. The other keys have the values below, beyond all
-// code points. The keypad's digits, plus, minus and Enter have the same codes as the main
-// keyboard's; in a window, its other keys that type characters have none (DIP_KEYCODE_NONE).
+// code points. The keypad's digits, Enter, and the keys + - * / and . have the same codes as the
+// main keyboard's. In a window, the keypad's other keys that type characters, such as = and the
+// comma, have no code (DIP_KEYCODE_NONE).
 typedef enum DipKeycode {
     DIP_KEYCODE_NONE = 0,
     DIP_KEYCODE_SPACE = ' ',
@@ -65,11 +66,11 @@ typedef enum DipControllerButton {
     DIP_CONTROLLER_BACK,
     DIP_CONTROLLER_GUIDE,
     DIP_CONTROLLER_START,
-    DIP_CONTROLLER_LEFT_STICK, // The stick is pressed down.
+    DIP_CONTROLLER_LEFT_STICK, // The left stick is pressed down.
     DIP_CONTROLLER_RIGHT_STICK,
     DIP_CONTROLLER_LEFT_SHOULDER,
     DIP_CONTROLLER_RIGHT_SHOULDER,
-    DIP_CONTROLLER_UP, // The directional pad.
+    DIP_CONTROLLER_UP, // Up on the directional pad.
     DIP_CONTROLLER_DOWN,
     DIP_CONTROLLER_LEFT,
     DIP_CONTROLLER_RIGHT,
@@ -89,7 +90,7 @@ typedef enum DipControllerAxis {
 } DipControllerAxis;
 
 typedef enum DipEventKind {
-    DIP_EVENT_NONE, // An event of none of the kinds below. The preview ignores it.
+    DIP_EVENT_NONE, // An event of none of the kinds below. The preview ignores such an event.
     DIP_EVENT_KEY_DOWN,
     DIP_EVENT_KEY_UP, // Also sent for every held key when the display loses the keyboard focus.
     DIP_EVENT_MOUSE_MOVE,
@@ -112,7 +113,7 @@ typedef struct DipEvent {
     DipEventKind kind;
     unsigned modifiers; // Key and mouse events: DIP_MODIFIER_... bits.
 
-    // KEY_DOWN and KEY_UP.
+    // These fields belong to KEY_DOWN and KEY_UP.
     DipKeycode key;      // The key's code in the user's keyboard layout.
     DipKeycode position; // The letter or digit that a US keyboard has at the key's place; for other
                          // keys and in a terminal, `key`.
@@ -121,7 +122,7 @@ typedef struct DipEvent {
     // Mouse events: where the pointer is, in pixels of the picture.
     int x;
     int y;
-    DipMouseButton button; // MOUSE_DOWN and MOUSE_UP.
+    DipMouseButton button; // MOUSE_DOWN and MOUSE_UP: the button.
     int clicks;            // MOUSE_DOWN: 2 for the second press of a double click.
     bool focuses;          // MOUSE_DOWN: the press also gave the display the keyboard focus.
     double wheel_x;        // MOUSE_WHEEL: steps to the right.
@@ -130,10 +131,10 @@ typedef struct DipEvent {
     char text[32];    // CONTROLLER_ADDED: the controller's name in UTF-8, cut to fit.
     const char *file; // DROP: the file's name. Borrowed until next_event is called again.
 
-    // CONTROLLER events.
+    // These fields belong to events of game controllers.
     int controller;                        // Identifies the controller until it is removed.
-    DipControllerButton controller_button; // CONTROLLER_DOWN and CONTROLLER_UP.
-    DipControllerAxis axis;                // CONTROLLER_AXIS.
+    DipControllerButton controller_button; // CONTROLLER_DOWN and CONTROLLER_UP: the button.
+    DipControllerAxis axis;                // CONTROLLER_AXIS: the axis.
     double axis_value;                     // CONTROLLER_AXIS: see DipControllerAxis.
 } DipEvent;
 

@@ -12,7 +12,7 @@
 #include <string.h>
 
 // The cache is a hash table with open addressing. It is emptied when it is three quarters full.
-// This bounds its memory even if the window's size changes often.
+// This bounds the cache's memory even if the window's size changes often.
 enum { GLYPH_SLOTS = 4096, MAX_GLYPHS = GLYPH_SLOTS / 4 * 3 };
 
 static const char ellipsis[] = "\xe2\x80\xa6";
@@ -24,7 +24,7 @@ typedef struct Glyph {
     int top;      // Distance from the baseline up to the mask's top edge, in pixels.
     int width;
     int height;
-    int advance;   // Distance from this glyph's pen to the next one's, in pixels.
+    int advance;   // Distance from this glyph's pen to the next glyph's pen, in pixels.
     uint8_t *mask; // Coverage, packed rows; NULL if the glyph shows nothing.
 } Glyph;
 

@@ -27,8 +27,8 @@ int dip_font_line_height(DipFont *font, int size);
 int dip_font_width(DipFont *font, int size, const char *line);
 
 // Shortens a line in place until it is at most max_width pixels wide. An ellipsis replaces whole
-// characters at the line's end. If not even an ellipsis fits, or if the array is too short for it,
-// the line becomes empty. size_bytes is the size of the array.
+// characters at the line's end. If not even an ellipsis fits, or if the array is too short for the
+// ellipsis, the line becomes empty. size_bytes is the size of the array.
 void dip_font_fit(DipFont *font, int size, int max_width, char *line, size_t size_bytes);
 
 // Draws a line whose left end is at x and whose top is at y.

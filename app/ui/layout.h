@@ -19,8 +19,8 @@ static inline int dip_rect_bottom(DipRect rect) {
     return rect.y + rect.height;
 }
 
-// Each function cuts a piece from one side of *rest and returns the piece. If the piece is larger
-// than *rest, the width or height of *rest becomes negative, which makes it empty.
+// Each of these functions cuts a piece from one side of *rest and returns the piece. If the piece
+// is larger than *rest, the width or height of *rest becomes negative, which makes it empty.
 DipRect dip_cut_top(DipRect *rest, int height);
 DipRect dip_cut_bottom(DipRect *rest, int height);
 DipRect dip_cut_left(DipRect *rest, int width);
@@ -30,25 +30,25 @@ DipRect dip_cut_right(DipRect *rest, int width);
 // smaller at the top and at the bottom.
 DipRect dip_rect_inset(DipRect rect, int x, int y);
 
-// Returns a rectangle of the given size in the middle of another one.
+// Returns a rectangle of the given size in the middle of `room`.
 DipRect dip_rect_middle(DipRect room, int width, int height);
 
-// Returns a cell of a grid that is as wide as `room` and begins at its top. The cells are numbered
-// from 0, row by row. height: height of a cell. gap_x, gap_y: gaps between columns and between
-// rows.
+// Returns a cell of a grid that is as wide as `room` and begins at the top of `room`. The cells are
+// numbered from 0, row by row. `height` is the height of a cell, and `gap_x` and `gap_y` are the
+// gaps between columns and between rows.
 DipRect dip_rect_cell(DipRect room, int columns, int height, int gap_x, int gap_y, int index);
 
-// Shows a line of text in a rectangle, centred vertically. `align` puts it at the left side, at the
-// right side or in the middle. A line that is too wide is shortened as by dip_font_fit.
+// Shows a line of text in a rectangle, centred vertically. `align` puts the line at the left side,
+// at the right side or in the middle. A line that is too wide is shortened as by dip_font_fit.
 void dip_ui_label(DipUi *ui, int size, DipColour colour, DipAlign align, DipRect rect,
                   const char *text);
 
-// Shows a line of text at the top of *rest, and cuts the line's height from it.
+// Shows a line of text at the top of *rest, and cuts the line's height from *rest.
 void dip_ui_line(DipUi *ui, int size, DipColour colour, DipRect *rest, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
 // Shows a line of text at the left side of *rest as dip_ui_label does, and cuts the text's width
-// and `gap` from it.
+// and `gap` from *rest.
 void dip_ui_word(DipUi *ui, int size, DipColour colour, DipRect *rest, int gap, const char *text);
 
 // Declares a control that takes steps by the arrow keys and the wheel (DipUiInput.steps). The

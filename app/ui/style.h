@@ -5,8 +5,8 @@
 #include "app/ui/pixels.h"
 
 static const DipColour dip_style_background = {10, 11, 14, 255};
-static const DipColour dip_style_white = {255, 255, 255, 255}; // Text: titles and values.
-static const DipColour dip_style_soft = {196, 202, 210, 255};  // Text: names and notes.
+static const DipColour dip_style_white = {255, 255, 255, 255}; // Titles, values, outlines, marks.
+static const DipColour dip_style_soft = {196, 202, 210, 255};  // Names, notes, some outlines.
 static const DipColour dip_style_accent = {255, 190, 92, 255}; // Highlights; marks of the pane
                                                                // being edited.
 static const DipColour dip_style_sheet = {14, 16, 21, 252};    // Background of the sheets.
@@ -15,19 +15,19 @@ static const DipColour dip_style_shade = {0, 0, 0, 90};        // Darkens the wi
 static const DipColour dip_style_dock = {20, 22, 26, 255};
 static const DipColour dip_style_bar = {27, 30, 36, 255};      // Background of the dock's bar.
 static const DipColour dip_style_editor = {27, 31, 37, 255};   // Behind the open setting's steps.
-static const DipColour dip_style_row = {42, 48, 56, 255};      // The open setting in its list.
-static const DipColour dip_style_raised = {32, 36, 43, 255};   // Buttons and steps.
+static const DipColour dip_style_row = {42, 48, 56, 255};      // Behind the open setting's row.
+static const DipColour dip_style_raised = {32, 36, 43, 255};   // Behind buttons, steps and tips.
 static const DipColour dip_style_line = {51, 58, 68, 255};     // Lines and outlines.
 static const DipColour dip_style_well = {12, 14, 17, 255};     // Behind plots, pictures and fields.
 static const DipColour dip_style_glass = {10, 12, 15, 199};    // Background of labels on pictures.
-static const DipColour dip_style_dim = {152, 162, 174, 255};   // Notes on the dock.
+static const DipColour dip_style_dim = {152, 162, 174, 255};   // Minor notes and disabled texts.
 static const DipColour dip_style_off = {139, 149, 162, 255};   // Disabled steps; dots of plots.
-static const DipColour dip_style_over = {74, 42, 42, 255};     // In plots: what exceeds a budget.
+static const DipColour dip_style_over = {74, 42, 42, 255};     // Behind what exceeds a budget.
 static const DipColour dip_style_gain = {95, 214, 189, 255};   // Less error; Pareto fronts.
 static const DipColour dip_style_worse = {255, 154, 139, 255}; // More error; too slow; warnings.
 static const DipColour dip_style_focus = {109, 184, 255, 255}; // Ring of the control with focus.
-static const DipColour dip_style_dark = {0, 0, 0, 255};        // Borders of marks over pictures.
-static const DipColour dip_style_shadow = {10, 12, 15, 255};   // Edges of letters over pictures.
+static const DipColour dip_style_dark = {0, 0, 0, 255};        // Dark parts of marks on pictures.
+static const DipColour dip_style_shadow = {10, 12, 15, 255};   // Dark edges of letters and lines.
 static const DipColour dip_style_on_accent = {26, 18, 6, 255}; // Text on the accent colour.
 
 // Returns the colour of a pane's figures and marks, for places where both panes' figures stand

@@ -11,8 +11,9 @@
 // A pass finds the topmost control under the pointer by the rectangles of the pass before it. The
 // caller therefore runs a pass without event and draw list first if the controls may have moved.
 //
-// So no control keeps a copy of the value that it shows, and the code that declares a control
-// decides in one place how the control looks and what it does:
+// Since the caller passes the value that a control shows in each pass, no control keeps a copy of
+// this value. The code that declares a control decides in one place how the control looks and what
+// it does:
 //
 //     if (dip_ui_button(ui, ID_APPLY, rect, "Apply", DIP_UI_PRIMARY, NULL)) { ... }
 //
@@ -31,7 +32,7 @@ typedef unsigned DipUiId;
 #define DIP_UI_ID(group, index) (((unsigned)(group) + 1) << 16 | (unsigned)(index))
 typedef enum DipUiGroup {
     DIP_UI_PANES,    // The two pictures.
-    DIP_UI_BAR,      // The dock's bar, and the button that brings it back.
+    DIP_UI_BAR,      // The dock's bar, and the button that brings the dock back.
     DIP_UI_SETTINGS, // Settings, presets, Apply.
     DIP_UI_LOUPE,
     DIP_UI_COMPARE,
@@ -61,8 +62,8 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass);
 // Ends the pass. In an event pass, uses an event that no control has taken: Tab and Shift+Tab move
 // the focus, and so do arrow keys while the focus shows. Escape hides a tip. Returns whether a
 // control or this function has used the event; if so, the caller must not act on it. In a drawing
-// pass, draws the tip of the control under the pointer, once it is due, above everything else, and
-// returns false.
+// pass, draws the tip of the control under the pointer above everything else, once the tip is due,
+// and returns false.
 bool dip_ui_end(DipUi *ui);
 
 // Returns the time at which a tip is due to appear. The caller must draw the window again at that
@@ -84,7 +85,7 @@ typedef struct DipUiControl {
     const char *tip;  // Text that explains the control while the pointer rests on it; may be NULL.
                       // Copied. Several lines are separated by '\n'.
     bool disabled;    // The control takes no input. It still shows its tip, which says why; a click
-                      // shows it at once.
+                      // shows the tip at once.
     bool skips_focus; // The control never gets the focus.
     bool takes_arrows; // Left, Right, Home and End change the control while it has the focus.
     bool takes_wheel;
@@ -92,11 +93,12 @@ typedef struct DipUiControl {
                        // A click gives such a control a focus that shows.
 } DipUiControl;
 
-// What the user did with a control in this event pass, and how to draw it in a drawing pass.
+// What the user did with a control in this event pass, and how to draw the control in a drawing
+// pass.
 typedef struct DipUiInput {
     bool hovered;  // The pointer is over the control, and no mouse button is held that was pressed
-                   // over another one.
-    bool focused;  // The control has the focus and shows it: draw a ring.
+                   // over another control.
+    bool focused;  // The control has the focus, and the focus shows. The caller then draws a ring.
     bool held;     // A mouse button that was pressed over the control is down, or is released now.
     bool pressed;  // The left button went down and up over the control, or Enter or Space was
                    // pressed.
@@ -136,8 +138,8 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
 DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *text,
                                const char *tip, double *typed);
 
-// Lets the tips of all controls in a rectangle appear outside the rectangle, so that they cover
-// none of its controls, if the window has room for them there. Holds until the end of the pass.
+// Lets the tips of all controls in a rectangle appear outside the rectangle if the window has room
+// there, so that the tips cover none of these controls. Holds until the end of the pass.
 void dip_ui_keep_tips_off(DipUi *ui, DipRect rect);
 
 // --- drawing -----------------------------------------------------------------------------------
@@ -148,7 +150,7 @@ DipDrawList *dip_ui_list(const DipUi *ui); // NULL in an event pass.
 double dip_ui_scale(const DipUi *ui);
 int64_t dip_ui_now_ns(const DipUi *ui);
 
-// Return where the pointer was last seen, in pixels of the window.
+// These functions return where the pointer was last seen, in pixels of the window.
 int dip_ui_pointer_x(const DipUi *ui);
 int dip_ui_pointer_y(const DipUi *ui);
 
@@ -171,7 +173,7 @@ void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour);
 // Draws the ring that shows the keyboard's focus around a rectangle, if the control has the focus.
 void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input);
 
-// Shows a line of text in letters of `size` at scale 1. For the rest, see dip_draw_list_text.
+// Shows a line of text as dip_draw_list_text does, but `size` is the size of letters at scale 1.
 void dip_ui_text(DipUi *ui, int size, DipColour colour, DipAlign align, int x, int y, int max_width,
                  const char *line);
 
@@ -184,8 +186,8 @@ int dip_ui_text_block(DipUi *ui, int size, DipColour colour, DipRect room, const
 // same in event passes and drawing passes.
 int dip_ui_text_block_height(const DipUi *ui, int size, int width, const char *text);
 
-// Return the width and the height of a line of text in pixels. The results are the same in event
-// passes and drawing passes.
+// These functions return the width and the height of a line of text in pixels. The results are the
+// same in event passes and drawing passes.
 int dip_ui_text_width(const DipUi *ui, int size, const char *line);
 int dip_ui_line_height(const DipUi *ui, int size);
 

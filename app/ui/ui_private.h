@@ -17,7 +17,7 @@ struct DipUi {
     DipUiPass pass;
     int pointer_x;
     int pointer_y;
-    bool pointer_inside; // An event has said where the pointer is.
+    bool pointer_inside; // True once an event has said where the pointer is.
     // `placed` holds the controls of this pass, and `before` those of the pass before it. This pass
     // finds the topmost control under the pointer in `before`. Controls beyond DIP_UI_MAX_CONTROLS
     // take neither mouse nor focus.
@@ -28,17 +28,20 @@ struct DipUi {
     DipUiId under;      // The topmost control under the pointer, or 0.
     DipUiId hovered;    // The control under the pointer at the end of the last pass.
     int64_t hovered_ns; // When the pointer came over that control.
-    DipUiId held;       // While a mouse button is down: the control over which it was pressed.
+    DipUiId held;       // The control over which a held mouse button was pressed, or 0.
     DipMouseButton held_button;
     double wheel_rest; // The part of a step that the wheel has turned after its last whole step.
     DipUiId focus;
-    bool focus_shows; // The focus came by the keyboard, or the control takes digits.
+    bool focus_shows; // True if a key moved the focus, or if the control with the focus takes
+                      // digits.
     DipUiId typing;   // The number field into which the user types, or 0.
-    char typed[8];    // What the user has typed into it and not yet ended with Enter or Space.
-    bool taken;       // A control took the event of this pass.
-    bool tip_hidden;  // A click or Escape hid the tip until the pointer leaves the control.
-    bool tip_seen;    // The tip has been drawn.
-    bool tip_asked;   // A disabled control was clicked, so its tip, which says why, shows at once.
+    char typed[8]; // What the user has typed into this field and not yet ended with Enter or Space.
+    bool taken;    // True if a control took the event of this pass.
+    bool tip_hidden;  // True if a click or Escape has hidden the tip until the pointer leaves the
+                      // control.
+    bool tip_seen;    // True if the tip has been drawn.
+    bool tip_asked;   // True if a disabled control was clicked, so that its tip, which says why,
+                      // shows at once.
     DipRect tip_rect; // Rectangle of the control whose tip may show.
     DipRect tip_off;  // The rectangle of dip_ui_keep_tips_off.
     char tip[DIP_UI_TIP_BYTES];
