@@ -1,4 +1,5 @@
-// Reads the command line, runs the command and prints errors: the main function of the program.
+// Holds the program's main function, which reads the command line, runs the command and prints
+// errors.
 #include "app/session/session.h"
 #include "app/cli/command_line.h"
 #include "app/command_list.h"
