@@ -37,11 +37,12 @@ typedef struct DipCandidates {
     DipCandidate *list;
     int count;
     DipTimeKind kind; // The kind of all times in the list.
-    bool disturbed;   // The machine was so busy that the times are wrong. Nothing is advised.
+    bool disturbed;   // True if the machine was so busy that the times are wrong. Nothing is then
+                      // advised.
 } DipCandidates;
 
-// A candidate is clearly better than another if its loss is lower by this share. A smaller
-// difference is not worth time.
+// A candidate is clearly better than another if its loss is lower by at least this share. A smaller
+// difference is not worth a longer time.
 #define DIP_CLEARLY_BETTER 0.01
 
 // A candidate surely fits a budget if its time is within it with at least this probability.
@@ -51,8 +52,8 @@ typedef struct DipCandidates {
 // time is not known.
 double dip_candidate_fits(const DipCandidate *candidate, double budget_ms);
 
-// Returns the fastest candidate whose loss is below `loss` by at least the share `step`. Returns -1
-// if there is none.
+// Returns the index of the fastest candidate whose loss is below `loss` by at least the share
+// `step`. Returns -1 if there is none.
 int dip_next_better(const DipCandidates *candidates, double loss, double step);
 
 // Writes the indices of the candidates on the Pareto front to `list`, in order of time: first the
@@ -72,16 +73,16 @@ enum { DIP_ADVICE_TIES = 8 };
 typedef struct DipAdvice {
     double budget_ms;
     int chosen;  // -1 if no candidate surely fits (DIP_SURELY_FITS).
-    double fits; // Probability that the chosen one fits the budget.
+    double fits; // Probability that the chosen one fits the budget; NAN if none is chosen.
     // The other candidates that surely fit and whose loss is at most 1 % above the least loss of
     // those that surely fit, the fastest first.
     int ties[DIP_ADVICE_TIES];
-    int tie_count;  // Number of all ties; the list has the first DIP_ADVICE_TIES.
-    int next;       // The next better candidate than the chosen one (dip_next_better), or the
-                    // fastest one if none is chosen; -1 if there is none.
+    int tie_count; // Number of all ties; the list has the first DIP_ADVICE_TIES.
+    int next; // The next better candidate than the chosen one (dip_next_better), or the fastest one
+              // if none is chosen; -1 if there is none or if the times are disturbed.
     double next_ms; // How much longer `next` takes than the chosen one, or than the budget if none
                     // is chosen.
-    double next_fits; // Probability that `next` fits this budget.
+    double next_fits; // Probability that `next` fits this budget; NAN if `next` is -1.
 } DipAdvice;
 
 // Chooses among the candidates that surely fit and whose loss is at most 1 % above the least loss

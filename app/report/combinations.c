@@ -1,5 +1,5 @@
 // Lists combinations of settings, and composes the counters of a combination that was not counted.
-// It composes them from counters of a base combination, and of combinations that differ from the
+// The sources are the counters of a base combination and those of combinations that differ from the
 // base only in some groups of settings.
 #include "app/report/combinations.h"
 
@@ -99,7 +99,7 @@ int dip_work_count_groups(const DipQuality *base, const DipQuality *quality) {
 
 double dip_cost_pixels_filtered(const DipQuality *quality) {
     const double scale = dip_quality_scale(quality);
-    // A history and post-process AA filter a small picture (scale below 1) before it is enlarged,
+    // Temporal AA and post-process AA filter a small picture (scale below 1) before it is enlarged,
     // and a large one (scale above 1) after it is averaged.
     const double drawn = fmin(1.0, scale * scale);
     return (dip_quality_has_history(quality) ? drawn : 0.0) +
@@ -162,6 +162,7 @@ void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
 }
 
 // Corrects counters that were composed as if AA and the render scale did not depend on each other.
+// Does nothing if the corners that this needs were not counted.
 static void join_corner(const DipWorkSum *sum, const DipQuality *quality, double *counters) {
     const int aa = quality->step[DIP_SETTING_AA], scale = quality->step[DIP_SETTING_SCALE];
     const int base_aa = sum->base->step[DIP_SETTING_AA];

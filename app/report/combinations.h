@@ -25,8 +25,9 @@ DipQuality dip_cost_take_settings(const DipQuality *from, const DipQuality *with
 
 // Alternating temporal AA does nothing without AA, advanced AF does nothing without AF, and an
 // upscaling filter does nothing without a scale below 1. Reports and prices therefore measure
-// temporal AA together with this step of AA if AA is off, advanced AF together with this step of AF
-// if AF is off, and upscaling filters together with this step of scale if the scale is not below 1.
+// temporal AA together with DIP_COST_COMPANY_AA if AA is off, advanced AF together with
+// DIP_COST_COMPANY_AF if AF is off, and upscaling filters together with DIP_COST_COMPANY_SCALE if
+// the scale is not below 1.
 enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE = DIP_SCALE_1_1_5 };
 
 // --- composed work -------------------------------------------------------------------------------
@@ -56,8 +57,8 @@ unsigned dip_work_group(int group);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Counters of the base with other steps of AA and of the render scale, [AA][scale]; NULL where they
-// were not counted.
+// Holds the counters of the base with other steps of AA and of the render scale, indexed
+// [AA][scale]. An entry is NULL if its combination was not counted.
 enum { DIP_WORK_MOST_STEPS = 8 };
 typedef struct DipWorkCorners {
     const double *of[DIP_WORK_MOST_STEPS][DIP_WORK_MOST_STEPS];

@@ -29,7 +29,7 @@ typedef struct Equations {
     DipCostModelled what;
     int first, end; // The parts from `first` to end - 1.
     DipNormalEquations parts[DIP_COST_PART_COUNT];
-    int known; // Number of rows, and of combinations timed elsewhere for the fit, that were added.
+    int known; // Number of rows, and of combinations in `there`, that were added.
 } Equations;
 
 static double sum_stages(const double stage_ms[DIP_COST_STAGE_COUNT]) {

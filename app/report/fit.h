@@ -33,14 +33,14 @@ int dip_cost_term_count(int part);
 // Returns the name of a term: "texel fetched". Static storage.
 const char *dip_cost_term_name(int part, int term);
 
-// Computes the amounts of a part's terms. The amount of the first term is 1. Only in the geometry
-// stage of frames that pose vertices, it is 0 (terms.c says why). `counters` are those of a frame
-// that was drawn with these settings, or their means over several frames.
+// Computes the amounts of a part's terms. The amount of the first term is 1, except in the geometry
+// stage of frames that pose vertices, where it is 0 (terms.c says why). `counters` are those of a
+// frame that was drawn with these settings, or their means over several frames.
 void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
 
-// Returns the sum of amounts times prices of all terms of the parts `first` to `end` - 1.
-// prices[part][term].
+// Returns the sum of amounts times prices of all terms of the parts `first` to `end` - 1. `prices`
+// is indexed [part][term].
 double dip_cost_sum_terms(int first, int end, const double (*prices)[DIP_COST_MAX_TERMS],
                           const double counters[DIP_COST_COUNTER_COUNT], const DipQuality *quality);
 

@@ -1,5 +1,5 @@
 // Checks whether error and work follow theory from one step of a sweep to the next. A table holds
-// what theory says about a setting; it lacks the settings about which theory says nothing.
+// what theory says about each setting; it lacks the settings about which theory says nothing.
 #include "app/report/analysis.h"
 
 #include <stdio.h>
@@ -77,9 +77,9 @@ static double error_of(const DipCostReport *report, const Theory *theory, int ro
                                  : dip_metrics_of(&sums, 0).flip;
 }
 
-// Returns the row that a step is compared with: the step before it. Theory does not say whether
-// aaa=coverage or few sample groups are better, so the step after aaa=coverage is compared with the
-// one before it.
+// Returns the row with which step i of the sweep is compared: the row of the step before it. Theory
+// does not say whether aaa=coverage or few sample groups are better, so the step after aaa=coverage
+// is compared with the step before aaa=coverage.
 static int row_before(const DipCostReport *report, const DipCostSweep *sweep, int i) {
     const int before = sweep->rows[i - 1];
     const bool covers = i > 1 && sweep->setting == DIP_SETTING_AAA &&

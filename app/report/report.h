@@ -18,7 +18,7 @@
 
 #include <stdbool.h>
 
-// Work counters, in the order of DIP_COUNTER_LIST.
+// Indices of the work counters of a frame, in the order of DIP_COUNTER_LIST.
 enum {
 #define DIP_COST_COUNTER(name, text) DIP_COST_COUNTER_##name,
     DIP_COUNTER_LIST(DIP_COST_COUNTER)
@@ -68,7 +68,7 @@ typedef struct DipPathEstimate {
     double worst_error;
     double level_error; // Standard error of the logarithm of the baseline's mean time along the
                         // path; NAN if it is not known.
-    int used;           // Number of the row's times that were not disturbed.
+    int used;           // Number of the row's timed frames that no other program disturbed.
 } DipPathEstimate;
 
 // One measured combination: quality settings on a camera path.
@@ -85,7 +85,7 @@ typedef struct DipCostRow {
     double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
 } DipCostRow;
 
-// A combination without a row, because another row draws the same pictures
+// A combination that has no row of its own, because another row draws the same pictures
 // (dip_cost_join_same_pictures).
 typedef struct DipCostSame {
     DipQuality quality;
@@ -169,7 +169,7 @@ typedef struct DipCostPredictions {
 
 // How quiet the machine was while times were taken.
 typedef enum DipCostVerdict {
-    DIP_COST_GREEN, // The intervals hold.
+    DIP_COST_GREEN, // The intervals of the times can be trusted.
     DIP_COST_AMBER, // The intervals may be too narrow.
     DIP_COST_RED    // The times are wrong: no advice is given.
 } DipCostVerdict;
@@ -201,7 +201,7 @@ typedef struct DipCostReport {
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
     int combined_first; // Rows from this index on are the combinations, on path 0.
-    DipCostSame *same;  // Combinations for which a row with the same pictures stands. Owned.
+    DipCostSame *same;  // Combinations without a row of their own. Owned.
     int same_count;
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;
@@ -209,11 +209,11 @@ typedef struct DipCostReport {
     int refused_count;
     int rounds;               // Number of rounds timed; 0 if the report has no times.
     DipDriverMachine machine; // What the timing tells about the machine.
-    DipTimed *log; // Every timed frame; its `subject` is the index of its row. Owned; NULL without
-                   // times.
+    DipTimed *log; // Every timed frame. A frame's `subject` is the index of its row. Owned; NULL
+                   // without times.
     int log_count;
-    int starts; // Number of processes in which each row was timed, in an equal number of rounds
-                // each.
+    int starts; // Number of processes that took the times. Each one timed every row, in equally
+                // many rounds.
     DipTimesFit *fit;       // Computed from the log. Owned; NULL without times.
     double doubt;           // Standard error that an amber verdict adds to each time's logarithm;
                             // 0 if the verdict is not amber.
@@ -390,7 +390,7 @@ static inline int dip_cost_frame_count(const DipCostReport *report) {
     return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
 }
 
-// Returns the report's time budgets as limits. Rounding must not carry a time over one of them
+// Returns the report's time budgets as limits. Rounding must not carry a time over a budget
 // (words.h).
 static inline DipLimits dip_cost_budgets(const DipCostReport *report) {
     const DipLimits limits = {report->options.budgets_ms, report->options.budget_count};

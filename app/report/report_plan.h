@@ -18,8 +18,8 @@ enum {
 // Which pictures the HTML page has.
 typedef enum DipCostPictureKind {
     DIP_COST_PICTURES_CROPS, // The part of each picture in which the rows differ most.
-    DIP_COST_PICTURES_FULL,  // Whole frames as far as the page's size limit allows; crops in place
-                             // of the others.
+    DIP_COST_PICTURES_FULL,  // Whole frames as far as the page's size limit allows, and crops for
+                             // the rest.
     DIP_COST_PICTURES_NONE
 } DipCostPictureKind;
 

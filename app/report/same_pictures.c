@@ -31,22 +31,22 @@ static int representative(const DipCostReport *report, int row) {
     return best;
 }
 
-// Where the rows of a report go. stands[i] is the row that stands for row combined_first + i, and
-// now[i] is this row's new index.
+// Tells where the rows of a report go. stands[i] is the row that stands for row combined_first + i.
+// If this is that row itself, now[i] is its new index.
 typedef struct Joined {
     int first; // combined_first; the rows before it stay where they are.
     int *stands;
     int *now;
 } Joined;
 
-// Returns the new index of the row that stands for a row. A negative number stays as it is.
+// Returns the new index of the row that stands for a row. A negative index stays as it is.
 static int joined_row(const Joined *joined, int row) {
     return row < joined->first ? row
                                : joined->now[joined->stands[row - joined->first] - joined->first];
 }
 
-// Takes the frames of rows that are gone out of the log, and gives the others the new indices of
-// their rows.
+// Removes the frames of rows that another row stands for from the log. Gives the remaining frames
+// the new indices of their rows.
 static void renumber_log(DipCostReport *report, const Joined *joined) {
     const int first = joined->first;
     size_t kept = 0;

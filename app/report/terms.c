@@ -28,9 +28,9 @@ typedef struct Work {
     double sharp[2];    // 1 if miplod is at least as sharp as `sharp` (the first value), as
                         // `sharper` (the second).
     double scaled;      // 1 if a larger picture is drawn and averaged.
-    double fraction;    // 1 if its width is no whole multiple of that of the frame.
+    double fraction;    // 1 if the scale of the larger picture is not a whole number.
     double below;       // 1 if a smaller picture is drawn and enlarged.
-    double scale;       // Width of the drawn picture divided by that of the frame.
+    double scale;       // Width of the drawn picture divided by the frame's width.
     double drawn_part;  // Pixels that are drawn per pixel of a frame, if scale is below 1; else 1.
     double enlarged[3]; // 1 with a scale below 1 and upscale=bilinear (the first value), =bicubic
                         // (the second) and =easu (the third).
@@ -41,17 +41,18 @@ typedef struct Work {
     double smaa;        // 1 with post=smaa.
     double sharpness;   // Strength of the sharpening, 0..1.
     double shadows;     // 1 with shadows.
-    double shadow_step; // Size of the smallest shadow map divided by the size of this one; 0
-                        // without shadows.
-    double filters;     // Pixels that all filters of the finished picture write per pixel of a
-                        // frame; 1 if there is none.
+    double shadow_step; // Size of the smallest shadow map divided by the size of the map that these
+                        // settings have; 0 without shadows.
+    double filters; // Pixels that all filters of the finished picture write per pixel of a frame; 1
+                    // if there are no filters.
 } Work;
 
 #define C(name) (w->counters[DIP_COST_COUNTER_##name])
 
-// All combinations of a scene pose the same number of vertices. So a fit cannot separate the time
-// of posing them from the constant time of a frame. In scenes that move there is no term for the
-// frame: its time, which is below 0.001 ms, is part of the time of the vertices.
+// All combinations of a scene pose the same number of vertices, so a fit cannot separate the time
+// of posing them from the constant time of a frame. In scenes with posed vertices, the term "frame"
+// is therefore 0, and the price of the vertices includes the constant time, which is below 0.001
+// ms.
 #define GEOMETRY_TERMS(X)                                                                          \
     X("frame", C(vertices_posed) > 0.0 ? 0.0 : 1.0)                                                \
     X("vertex posed", C(vertices_posed))                                                           \
@@ -127,9 +128,10 @@ typedef struct Work {
     X("edge found by FXAA", C(edges_found) * w->fxaa)                                              \
     X("edge found by SMAA", C(edges_found) * w->smaa)
 
-// The first terms stand for errors at edges. The next ones stand for errors at the edges of
-// alpha-clipped surfaces, for those in textures, and for those of the other settings. The last ones
-// are products of two terms, since one error hides a part of another error in the same place.
+// After the constant term "picture", the first terms stand for errors at edges. The next ones stand
+// for errors at the edges of alpha-clipped surfaces, for those in textures, and for those of the
+// other settings. The last ones are products of two terms, since one error hides a part of another
+// error in the same place.
 #define FLIP_TERMS(X)                                                                              \
     X("picture", 1.0)                                                                              \
     X("one sample", 1.0 - w->several)                                                              \

@@ -88,9 +88,8 @@ void dip_cost_judge_machine(DipCostReport *report) {
     signs.wait = report->machine.wait;
     signs.settled = report->machine.settled;
     report->verdict = dip_cost_verdict_of(&signs, report->verdict_reason);
-    // The A/A rows draw what the baseline draws and should take the same time. By how much they
-    // differ, on the whole and from round to round, is the error that the machine adds to every
-    // comparison.
+    // The A/A rows draw what the baseline draws and should take the same time. Their difference, on
+    // the whole and from round to round, is the error that the machine adds to every comparison.
     const double of_rounds = signs.spread / sqrt(report->options.rounds);
     report->doubt = report->verdict == DIP_COST_AMBER ? fmax(signs.offset, of_rounds) : 0.0;
 }

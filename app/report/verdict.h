@@ -11,11 +11,11 @@
 
 // The signs from which a verdict follows.
 typedef struct DipCostSigns {
-    double wait;      // Waiting time of the threads, as a share of the time on all threads.
+    double wait;      // Waiting time of the threads, as a share of the time that all threads had.
     double spread;    // Greatest spread of an A/A ratio over the rounds (dip_times_spread).
     double offset;    // Greatest |log| of an A/A ratio.
     double disturbed; // Share of the times that stayed disturbed (rounds.h).
-    bool settled;     // True if the time was steady before the rounds (driver.h).
+    bool settled;     // True if the time of a frame was steady before the first round (driver.h).
 } DipCostSigns;
 
 // Limits of a sign. Up to `green` the verdict is green, above `red` it is red, and between them it
@@ -38,10 +38,10 @@ DipCostSigns dip_cost_signs_of(const DipTimesFit *fit, int subjects, const int *
 // Returns the verdict, and writes the reason as a sentence.
 DipCostVerdict dip_cost_verdict_of(const DipCostSigns *signs, char reason[DIP_COST_REASON]);
 
-// Fills in the verdict of a report whose report->fit is made, the reason, and report->doubt. For an
-// amber verdict, the doubt is how far the A/A rows differ from the baseline on the whole, or the
-// standard error that follows from their spread over the rounds, whichever is more. Otherwise it is
-// 0.
+// Fills in report->verdict, its reason and report->doubt. report->fit must have been computed. For
+// an amber verdict, the doubt is how far the A/A rows differ from the baseline on the whole, or the
+// standard error that follows from their spread over the rounds, whichever is more. For other
+// verdicts, the doubt is 0.
 void dip_cost_judge_machine(DipCostReport *report);
 
 #endif

@@ -24,11 +24,11 @@ typedef struct DipLimits {
 void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
                         char text[DIP_NUMBER_BYTES]);
 
-// Writes a time as it is shown beside a limit, such as the budget of a frame: "8.4", or with one
-// digit and a question mark if it is doubtful: "8?", "70?". If rounding would carry the time over
-// the limit, more digits are written, up to three after the point ("15?" rather than "10?" beside a
-// limit of 12, "16.66" rather than "16.7" beside 16.667). A limit of INFINITY is none. The text has
-// no plus sign.
+// Writes a time as it is shown beside a limit, such as the budget of a frame: "8.4". A doubtful
+// time has one significant digit and a question mark: "8?", "70?". If rounding would carry the time
+// over the limit, more digits are written, up to three after the point ("15?" rather than "10?"
+// beside a limit of 12, "16.66" rather than "16.7" beside 16.667). If there is no limit, `limit_ms`
+// is INFINITY. The text has no plus sign.
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]);
 
@@ -36,12 +36,12 @@ void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
 // point: ".0354", "+.0010".
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]);
 
-// Writes a time budget in up to three digits: "16.7", "8", "33.3". From 1000 ms on, writes it in
-// whole milliseconds.
+// Writes a time budget in up to three significant digits: "16.7", "8", "33.3". From 1000 ms on,
+// writes it in whole milliseconds.
 void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]);
 
-// Writes a time budget as the start of a sentence: "At 60 frames a second (16.7 ms)" for the usual
-// rates of displays, otherwise "Within 8 ms a frame".
+// Writes a time budget as the start of a sentence: "At 60 frames a second (16.7 ms)" for usual
+// frame rates (24 to 240 frames a second), otherwise "Within 8 ms a frame".
 void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]);
 
 // Writes the probability that something fits a budget: "99 %", or "unknown" for NAN. Writes 100 %

@@ -15,9 +15,9 @@
 #define DIP_COST_MOST_COUNT 1e15
 #define DIP_COST_MOST_MEAN  1e6
 
-// Initialisers of a DipField. DIP_FACT makes a fact. The others make derived fields. The value of
-// DIP_COMPUTED is a member of the struct. A function computes the values of DIP_DERIVED and
-// DIP_SHOWN; JSON has no field that DIP_SHOWN makes.
+// Initialisers of a DipField. DIP_FACT makes a fact. DIP_COMPUTED, DIP_DERIVED and DIP_SHOWN make
+// derived fields. The value of a DIP_COMPUTED field is a member of the struct; a function computes
+// the value of a DIP_DERIVED or DIP_SHOWN field. JSON has no DIP_SHOWN fields.
 #define DIP_MEMBER(KIND, WHERE, TYPE, member)                                                      \
     .kind = DIP_FIELD_##KIND, .where = WHERE, .offset = offsetof(TYPE, member),                    \
     .size = sizeof(((TYPE *)0)->member)

@@ -32,8 +32,8 @@ static void add_missing(cJSON *object, const char *name,
     }
 }
 
-// Replaces the ends of an interval by null if they are missing or equal. Files of format 2 have
-// equal ends where an interval is not known.
+// Replaces the ends of an interval by null unless both are there and the lower one is below the
+// upper one. Files of format 2 have equal ends where an interval is not known.
 static void forget_no_interval(cJSON *object) {
     static const char *const names[] = {"ms_low", "ms_high"};
     const cJSON *low = cJSON_GetObjectItemCaseSensitive(object, "ms_low");
@@ -75,7 +75,7 @@ static void add_searched(cJSON *predicted) {
 }
 
 // Adds the members that format 3 always has and format 2 leaves out: they are null, 0 or empty.
-// Also forgets the intervals that are not known.
+// Also forgets the intervals of `smaller` that are not known.
 static void upgrade(cJSON *root) {
     static const char *const nulls[] = {"machine", "predicted", "smaller"};
     static const char *const lists[] = {"left_out", "floors", "same_pictures",

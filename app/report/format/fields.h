@@ -31,15 +31,15 @@ typedef enum DipFieldKind {
 
 // How a field is written.
 enum {
-    DIP_FIELD_JSON = 1,   // It is a member of the object in JSON.
-    DIP_FIELD_DERIVED = 2 // It is a derived field, which is never read.
+    DIP_FIELD_JSON = 1,   // The field is a member of the object in JSON.
+    DIP_FIELD_DERIVED = 2 // The field is derived, and so it is never read.
 };
 
 // How people read a field.
 enum {
-    DIP_SHOW_SIGN = 1,    // It is a change, and is written with '+' or '-'.
+    DIP_SHOW_SIGN = 1,    // The field is a change, and is written with '+' or '-'.
     DIP_SHOW_FIGURES = 2, // `digits` are significant figures.
-    DIP_SHOW_CODE = 4     // It is code that people copy. Pages mark it as code.
+    DIP_SHOW_CODE = 4     // The field is code that people copy. Pages mark it as code.
 };
 
 // Names the item whose field is wanted. An item is a struct that has fields.
@@ -56,7 +56,7 @@ typedef union DipFieldScratch {
     char text[2048];
 } DipFieldScratch;
 
-// Returns the value, which may lie in *scratch, or NULL if it is not known.
+// Returns the value of a derived field, which may lie in *scratch, or NULL if it is not known.
 typedef const void *DipFieldDerive(const DipFieldAt *at, DipFieldScratch *scratch);
 
 struct DipField;
@@ -71,8 +71,8 @@ typedef struct DipRecord {
     // has an array for each field, and item i's value of the field lies i * DipField.stride bytes
     // behind the array's start.
     size_t size;
-    // Returns whether the facts of an item fit together. It is called when all of them have been
-    // read. NULL if they always fit.
+    // Returns whether the facts of an item fit together. It is called once all facts of the item
+    // have been read. NULL if they always fit.
     bool (*check)(const DipFieldAt *at);
 } DipRecord;
 
@@ -88,7 +88,8 @@ typedef struct DipFieldList {
     // Makes room for `count` items that are read. Returns DIP_ERROR_NONE, DIP_ERROR_FORMAT if this
     // number is impossible, or DIP_ERROR_MEMORY.
     DipErrorCode (*open)(const DipFieldAt *at, int count);
-    // Stores an item that was read. NULL if each item is read into its final place.
+    // Stores an item that was read. Returns false if the item is impossible. NULL if each item is
+    // read into its final place.
     bool (*put)(const DipFieldAt *at, int index, const void *item);
     // In place of each function above that is NULL, the following members are used. They describe
     // an array that is a member of the owner.
@@ -100,13 +101,13 @@ typedef struct DipFieldList {
 
 typedef struct DipField {
     const char *name;  // Key in JSON, and column in CSV: "p95_ms".
-    const char *title; // Title of the column in tables for people: "p95"; NULL if it is the name.
+    const char *title; // Title of the column in tables for people: "p95"; NULL stands for `name`.
     const char *unit;  // "ms", or NULL.
     const char *means; // A sentence for the documentation and the page's glossary.
     DipFieldKind kind;
-    unsigned where;     // Sum of DIP_FIELD_JSON and others.
-    unsigned show;      // Sum of DIP_SHOW_SIGN and others.
-    int digits;         // Digits after the point, for people.
+    unsigned where; // Sum of DIP_FIELD_JSON and DIP_FIELD_DERIVED, or one of them.
+    unsigned show;  // Sum of the DIP_SHOW_ values that hold.
+    int digits; // For people: digits after the point, or significant figures with DIP_SHOW_FIGURES.
     double scale;       // Tables for people show the value times this, in `unit`; 0 means 1.
     double least, most; // Range of a fact.
     size_t offset, size;
@@ -116,7 +117,8 @@ typedef struct DipField {
     const DipRecord *record;
     const DipFieldList *list;
     DipFieldDerive *derive; // NULL if the value is the member at `offset`.
-    // Returns whether the value is known; JSON has null for one that is not. NULL if it always is.
+    // Returns whether the value is known; JSON has null for an unknown value. NULL if the value is
+    // always known.
     bool (*known)(const DipFieldAt *at);
 } DipField;
 
@@ -187,7 +189,8 @@ void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const c
 
 enum { DIP_CELL_BYTES = 512 };
 
-// Writes an estimate's interval, "1.23 to 1.45", or "". Rounding crosses no limit.
+// Writes an estimate's interval, "1.23 to 1.45", or "" if the interval is not known. Rounding
+// crosses no limit.
 void dip_field_interval_text(const DipField *field, DipLimits limits, const DipEstimate *estimate,
                              char text[DIP_CELL_BYTES]);
 
@@ -196,8 +199,8 @@ void dip_field_interval_text(const DipField *field, DipLimits limits, const DipE
 // are the same in all lines. A value has its field's digits, its unit in the head, and, if it is a
 // change, its sign. An estimated change whose interval holds 0 is marked with '?'. An estimate has
 // a second column for its interval. A flag that is true is shown as its title. The cell of a value
-// that is not known, or of a flag that is false, is empty; terminals show '-' for an unknown
-// number. All members are borrowed.
+// that is not known, or of a flag that is false, is empty; terminals show '-' for an unknown number
+// or interval. All members are borrowed.
 typedef struct DipTable {
     const char *id; // Id of the table in a page, and the name of the file that its CSV is saved to.
     const char *caption; // NULL or "" if there is none.
@@ -215,7 +218,7 @@ typedef struct DipTable {
     const char *set; // Name of the page's set of pictures of these rows; NULL if there is none.
 } DipTable;
 
-// Prints a table without its caption for a terminal, each line after two blanks.
+// Prints a table without its caption for a terminal. Each line begins with two blanks.
 void dip_table_print_text(const DipTable *table, FILE *out);
 
 // Prints a table for a page, with its caption. The page's scripts find the rows of a report by the

@@ -13,7 +13,8 @@ enum { PATH_ROOM = 96, NAME_ROOM = 64 };
 
 // --- writing -------------------------------------------------------------------------------------
 
-// Prints a number with the fewest digits from which the same number is read.
+// Prints a number with 15 significant digits, or with 16 or 17 if fewer would be read as another
+// number. Prints null for a number that is not finite.
 static void print_number(double value, FILE *out) {
     char text[32] = "null";
     for (int digits = 15; isfinite(value) && digits <= 17; digits++) {
@@ -53,8 +54,8 @@ static void print_numbers(const DipField *field, const double *values, FILE *out
 }
 
 // Returns the DipFieldAt of item `index` of a list. Its member `item` is this item: a struct, or a
-// single value that list->item returned. If there is no such function and the items are no structs
-// of their own, `item` is instead the array or the struct that holds the values of all items, and
+// single value that list->item returned. If list->item is NULL and the items are no structs of
+// their own, `item` is instead the array or the struct that holds the values of all items, and
 // `index` selects among them.
 static DipFieldAt list_item(const DipFieldList *list, const DipFieldAt *at, int index,
                             DipFieldScratch *scratch) {
@@ -233,7 +234,8 @@ static bool read_text(const cJSON *item, const DipField *field, char *to) {
     return fits;
 }
 
-// Reads a value that is a single item of JSON. Returns false if the item is wrong.
+// Reads a value of any kind but an estimate, a record or a list. Returns false if the item of JSON
+// is wrong.
 static bool read_plain(const cJSON *item, const DipField *field, void *to) {
     switch (field->kind) {
     case DIP_FIELD_TEXT:

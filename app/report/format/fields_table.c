@@ -16,7 +16,7 @@ typedef struct Cell {
     DipFieldKind kind;
     unsigned show;
     bool is_known;
-    bool is_text; // True if the cell is set to the left, false if it is set to the right.
+    bool is_text; // True if the cell is aligned to the left, false if to the right.
 } Cell;
 
 // The head of a table, which of its columns are shown, and their widths in characters.

@@ -30,7 +30,7 @@ void dip_html_pictures(const DipCostReport *report, const DipCostPictureSet *set
 bool dip_html_front(DipForm *form, const DipCostReport *report, const DipCostPictures *pictures);
 
 // Writes plots of time and error along path 0, for the baseline and the advised combinations. If no
-// combination but the baseline is advised, the knee of the front takes their place. Errors at a
+// combination but the baseline is advised, the knee of the front is plotted instead. Errors at a
 // single viewpoint get no plot. Writes nothing if the report has no times or no combinations.
 // Returns false when memory runs out.
 bool dip_html_path(DipForm *form, const DipCostReport *report);

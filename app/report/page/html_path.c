@@ -44,7 +44,7 @@ static void add_line(Lines *lines, int row, const char *prefix) {
 }
 
 // Lists the baseline and then the advised combinations. If no combination but the baseline is
-// advised, lists the knee of the Pareto front (app/report/choice.h) instead of them.
+// advised, adds the knee of the Pareto front (app/report/choice.h) instead.
 static void list_lines(Lines *lines) {
     const DipCostReport *report = lines->report;
     add_line(lines, report->base_rows[0], "baseline: ");

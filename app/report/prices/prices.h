@@ -7,14 +7,15 @@
 // without the step were measured, or from path 0 if one of the two is predicted. A setting that has
 // no effect alone is priced together with its company: the settings that it needs, which are then
 // set both with the step and without it (view.h). AF and advanced AF are also priced together with
-// the antialiasing of the pane (one of the preview's two pictures), so that prices add up. If that
-// price was not measured, the price with the pane's AA but the base's adaptive AA stands for it if
-// more is known of it, or else the price with the base's antialiasing.
+// the antialiasing of the pane (one of the preview's two pictures), so that prices add up. If this
+// price was not measured, another price of which more is known stands for it: the price with the
+// pane's AA but the base's adaptive AA, or the price with the base's antialiasing. The first of
+// these is preferred if equally much is known of both.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). If there are too few
-// rows for the models or for composing the work, its time is the time of the base, or of a
-// combination nearer to it, plus the prices of the steps that this one lacks.
+// rows for the models or for composing the work, its time is the time of the base (or of a measured
+// combination that is more like it) plus the prices of the steps in which the two differ.
 #ifndef DIP_APP_REPORT_PRICES_PRICES_H
 #define DIP_APP_REPORT_PRICES_PRICES_H
 
@@ -36,31 +37,33 @@ typedef enum DipPriceState {
 typedef enum DipPriceTrust {
     DIP_PRICE_TRUST_UNKNOWN,  // There is no number.
     DIP_PRICE_TRUST_DOUBTFUL, // The interval is too wide, or the machine was too busy. The time is
-                              // shown with one digit and "?". It has no bar of its own, and in a
-                              // sum it is part of the rest.
+                              // shown with one significant digit and "?". It has no bar of its own
+                              // in the preview's panel, where the bar of the rest includes it.
     DIP_PRICE_TRUST_ZERO,     // The time is 0 as far as anyone can tell: "≈ 0".
     DIP_PRICE_TRUST_KNOWN
 } DipPriceTrust;
 
 // One step's price. `state` tells about the time: an UNKNOWN price can have an error, because a
-// report can have errors without times, and the other way round. Intervals are 95 % intervals.
+// report can have errors without times. A price with a time can lack an error. Intervals are 95 %
+// intervals.
 typedef struct DipPrice {
     DipPriceState state;
     double ms; // Milliseconds that the step adds. If `state` is BASE, the whole time.
     double ms_low;
     double ms_high;
     double without_ms;  // The whole time without the step; 0 if `state` is BASE.
-    bool has_flip;      // The error is known. (The preview has times before it has errors.)
+    bool has_flip;      // True if the error is known. (The preview has times before it has errors.)
     double flip;        // What the step adds to FLIP. If `state` is BASE, the whole FLIP.
-    bool flip_at_floor; // The error with the step cannot be told from the noise of the converged
-                        // picture that it is measured against.
-    bool needs_company; // The step has no effect with the settings of the pane. `needs` then says
-                        // what it needs, such as "AF".
+    bool flip_at_floor; // True if the error with the step cannot be told from the noise of the
+                        // converged picture that it is measured against.
+    bool needs_company; // True if the step has no effect with the settings of the pane. `needs`
+                        // then says what the pane lacks, such as "AF".
     char needs[24];
     char beside[48]; // The company: "aa=8,aaa=on"; "" if there is none.
     char path[32];   // Name of the path that the price is for, such as "DEFAULT"; "" if nothing is
                      // known or if the report is of one picture.
-    // The machine was too busy for the report's times to be believed (its verdict is red).
+    // True if the machine was too busy for the report's times to be believed (the report's verdict
+    // is red).
     bool doubtful;
 } DipPrice;
 
@@ -129,10 +132,10 @@ typedef enum DipPricesKnown {
 // Lists the candidates for a choice from a report that has not measured combinations along a path.
 // They are the combinations of aa, aaa, af, aaf, opt and miplod, measured or predicted, with the
 // other settings of the base. The prices of the steps of these settings, for a pane with the
-// settings `like`, must be known first. Excepted are steps without effect there, and steps that
-// reports of earlier versions lack. Until then, the list is NULL and the result is not
-// DIP_PRICES_KNOWN. The caller frees candidates->list. Takes some milliseconds. When memory runs
-// out, the result is DIP_PRICES_NO_TIMES.
+// settings `like`, must be known first. Exceptions are steps without effect for this pane, and
+// steps that reports of earlier versions lack. Until the prices are known, the list is NULL and the
+// result is not DIP_PRICES_KNOWN. The caller frees candidates->list. Takes some milliseconds. When
+// memory runs out, the result is DIP_PRICES_NO_TIMES.
 DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *like,
                                     DipCandidates *candidates);
 

@@ -69,7 +69,8 @@ static DipQuality without_other_paths(const DipPriceView *view, const DipQuality
 }
 
 // Finds the whole time of a combination: as measured, as predicted, or as the time of the base (or
-// of a combination nearer to this one) plus the parts that it lacks.
+// of a measured combination that is more like this one) plus the prices of the steps in which the
+// two differ.
 static DipPriceWhole whole_of(const DipPriceView *view, const DipQuality *normal,
                               const Parts *parts) {
     const DipPriceEntry *entry = dip_price_find(view, 0, normal);

@@ -136,8 +136,8 @@ DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *ent
     if (entry->row >= 0) {
         return whole_of_row(view->report, entry->row);
     }
-    // There are misses of rows that were each predicted from the others, and of rows that were
-    // measured after they had been predicted. The greater misses count.
+    // Some misses are of rows that were each predicted from the others, and some are of rows that
+    // were measured after they had been predicted. The error follows from the greater misses.
     const DipCostMisses *before = &predicted->times_left_out, *later = &predicted->times;
     const bool worse = before->rows == 0 || (later->rows > 0 && later->p90 > before->p90);
     const DipCostPrediction *prediction = &predicted->list[entry->prediction];

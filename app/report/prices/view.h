@@ -87,8 +87,9 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 typedef struct DipPriceQuestion {
     DipQuality with;    // The base with the company and the step.
     DipQuality without; // The combination with the company but without the step.
-    bool is_base; // Both combinations are equal: the other steps are compared with this one. It is
-                  // off for taa, aaa and aaf, bilinear for upscale, and otherwise the base's step.
+    bool is_base; // True if both combinations are equal: the other steps are compared with this
+                  // one. It is off for taa, aaa and aaf, bilinear for upscale, and the base's step
+                  // for all other settings except asd, which has no such step.
     char needs[24]; // What the pane lacks for the step to do anything: "AF", or "".
 } DipPriceQuestion;
 
