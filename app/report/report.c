@@ -54,7 +54,8 @@ int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, in
                       DIP_COST_MAX_ROWS);
         return -1;
     }
-    DipCostRow *row = &report->rows[report->row_count++]; // Freed with the report, even on failure.
+    // The row is freed with the report, even if this function fails.
+    DipCostRow *row = &report->rows[report->row_count++];
     *row = (DipCostRow){.quality = *quality, .path = path};
     if (!alloc_row(report, row)) {
         dip_cost_out_of_memory(err);

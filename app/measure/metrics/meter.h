@@ -36,7 +36,7 @@ typedef enum DipMeterKind {
 typedef struct DipMeterStandard {
     DipSrgbPicture picture;
     // The same picture in linear light, 3 values per pixel. If it is NULL, squared differences in
-    // linear light are not measured.
+    // linear light and flicker are not measured.
     const float *rgb_lin;
     const DipFlipAnalysis *analysis; // FLIP's analysis of the picture; if NULL, the meter makes it.
     const uint8_t *classes; // What each pixel shows (DipSeen). Kinds without regions ignore it.
@@ -60,9 +60,10 @@ typedef struct DipMeter {
     DipSrgbPicture test;
     const float *test_lin;
     DipMeterStandard standard;
-    int steps;          // Number of steps taken for the current picture.
-    DipMetricSums sums; // Sums of the current picture, complete after its last step. The fields
-                        // about bursts stay 0; dip_meter_end_burst writes its results elsewhere.
+    int steps; // Number of steps taken for the current picture.
+    // Sums of the current picture, complete after its last step. The fields about bursts stay 0,
+    // because dip_meter_end_burst adds to the caller's sums.
+    DipMetricSums sums;
 } DipMeter;
 
 // Returns false when memory runs out; *meter then owns nothing.
@@ -78,10 +79,10 @@ DIP_API void dip_meter_begin_burst(DipMeter *meter);
 // meter analyses it while it measures the first of these pictures.
 DIP_API void dip_meter_set_standard(DipMeter *meter, const DipMeterStandard *standard);
 
-// Begins the next picture of the burst. If the last picture is not complete, forgets it; in a
-// burst of several frames (DIP_METER_BURSTS), the last picture must be complete. test_lin is the
-// picture in linear light, if the caller has values more precise than the 8-bit codes of `test`;
-// otherwise it is NULL. Picture and standard are borrowed until the last step.
+// Begins the next picture of the burst. If the previous picture is not complete, forgets that
+// picture; in a burst of several frames (DIP_METER_BURSTS), the previous picture must be complete.
+// test_lin is the picture in linear light, if the caller has values more precise than the 8-bit
+// codes of `test`; otherwise it is NULL. Picture and standard are borrowed until the last step.
 DIP_API void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin);
 
 // Measures the next block or band of the picture. The results have the same bits as if the whole

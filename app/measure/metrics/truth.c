@@ -20,7 +20,7 @@
 
 enum {
     HALVES = 2,
-    TILES_AT_ONCE = 128,       // Most tiles that one step draws, unless the job is live.
+    TILES_AT_ONCE = 128, // Greatest number of tiles that one step draws, unless the job is live.
     PIXELS_AT_ONCE = 1 << 14,  // Pixels for which one step computes the mean of the halves.
     LIVE_CACHE_BYTES = 1 << 30 // A live job (truth.h) adds nothing to a cache larger than this.
 };
@@ -48,7 +48,7 @@ struct DipTruthJob {
     DipConvergence *convergence; // NULL if the def's function `draw` draws.
     Half halves[HALVES];
     int drawn;      // Tiles of the level drawn so far, in both halves together.
-    size_t joined;  // Number of pixels for which the mean of the halves is computed.
+    size_t joined;  // Number of pixels for which the mean of the halves has been computed.
     DipMeter meter; // Compares the halves.
     DipTruth truth;
     bool has_truth; // True if `truth` holds the truth of the last complete level.
@@ -183,7 +183,7 @@ static int samples_of_level(const DipTruthJob *job) {
                                              : job->def.samples;
 }
 
-// Goes to the next level. Skips levels that are not coarser than the last one.
+// Goes to the next level. Skips levels that are not coarser than the last level.
 static void next_level(DipTruthJob *job) {
     do {
         job->level++;

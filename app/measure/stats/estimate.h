@@ -31,12 +31,12 @@ DIP_API DipEstimate dip_estimate_unknown(double value);
 DIP_API DipEstimate dip_estimate_make(double value, double log_error, double degrees);
 
 // Returns the estimate with a greater error: adds `log_error`, for example an error that several
-// estimates share, to its own in quadrature. The degrees of freedom do not change.
+// estimates share, to estimate->log_error in quadrature. The degrees of freedom do not change.
 DIP_API DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error);
 
 // Returns the probability that the true value is at most `limit`. The logarithm of the value is
 // taken to have Student's t distribution. `common_error` is added to the estimate's log_error in
-// quadrature. Returns NAN if the estimate's error is not known or its value is not positive.
+// quadrature. Returns NAN if either error is NAN or if the estimate's value is not positive.
 DIP_API double dip_estimate_chance_below(const DipEstimate *estimate, double limit,
                                          double common_error);
 

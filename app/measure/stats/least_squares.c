@@ -242,7 +242,8 @@ void dip_design_choose(const double *matrix, int rows, int terms, int given, int
         }
     }
     for (int i = 0; i < terms; i++) {
-        design.inverse[i][i] = 1000.0; // Almost no information before the first row.
+        // Before the first row, the design has almost no information.
+        design.inverse[i][i] = 1000.0;
     }
     for (int i = 0; i < count; i++) {
         if (i >= given) {

@@ -43,8 +43,8 @@ DIP_API void dip_normal_equations_add(DipNormalEquations *equations, const doubl
 DIP_API void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *prices);
 
 // Finds the prices of either sign with the least sum of squared errors. Adds `ridge` to the
-// diagonal of the scaled equations (ridge regression, Hoerl and Kennard 1970). It must be positive
-// if there are fewer rows than terms.
+// diagonal of the scaled equations (ridge regression, Hoerl and Kennard 1970). `ridge` must be
+// positive if there are fewer rows than terms.
 DIP_API void dip_least_squares_ridge(const DipNormalEquations *equations, double ridge,
                                      double *solution);
 

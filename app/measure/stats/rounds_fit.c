@@ -222,7 +222,7 @@ static void median_of_frames(const double *values, const int *frames, int count,
 // other frames, too.
 static double common_rest(DipTimesWork *w, int count, const int *visits, const double *rest) {
     int found = 0;
-    double *of_visits = w->logs; // No longer needed.
+    double *of_visits = w->logs; // The log ratios are no longer needed.
     for (int v = 0; v < w->visit_count; v++) {
         int in_visit = 0;
         for (int i = 0; i < count; i++) {

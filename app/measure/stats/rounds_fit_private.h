@@ -102,8 +102,8 @@ typedef struct DipTimesWork {
                    // frame.
     bool is_base;  // True if the subject is the base itself, which has no pairs.
     double *level; // [(1 + units) * frames]: levels from all units, then with each left out.
-    double *missing; // [1 + units]: variance of the true levels along the path, minus that of the
-                     // fitted levels, which is smaller because they are smoothed.
+    double *missing; // [1 + units]: variance of the true levels along the path, minus the variance
+                     // of the fitted levels, which smoothing makes smaller.
     double spread;   // As in DipTimesSubject.
     double doubt;    // As in DipTimesSubject.
     DipTimesMoment *moments; // [count]

@@ -31,7 +31,8 @@ typedef struct DipChildDef {
 } DipChildDef;
 
 // Starts a program and a watch of its threads (thread_use.h). Fails if the program cannot be
-// started or does not send the expected greeting. Ignores the signal SIGPIPE from now on.
+// started or does not send the expected greeting. From then on, this process ignores the signal
+// SIGPIPE.
 DIP_API DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 
 // Returns the number of the child's threads that are watched (thread_use.h); 0 if the system does

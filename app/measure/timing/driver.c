@@ -44,7 +44,8 @@ static void fix_starts(DipDriver *d, int64_t round_ns) {
     d->starts_are_fixed = true;
 }
 
-// Returns whether a frame given to dip_driver_resume is the one that the plan of the round has.
+// Returns whether a frame given to dip_driver_resume is valid and is the frame that `draw`, a part
+// of the current round's plan, says.
 static bool is_of_draw(const DipDriver *d, const DipTimed *timed, const DipDriverDraw *draw) {
     return timed->subject == draw->subject && timed->block == draw->block &&
            timed->frame == draw->frame &&
@@ -122,7 +123,8 @@ static bool draw_frame(DipDriver *d, const DipDriverDraw *draw, DipTimed *timed,
     const DipThreadUse before = thread_use(d);
     const int64_t begin_ns = now_ns(d);
     if (!d->has_begun) {
-        // It was 0, or minus the time at which the last visit of the resumed rounds began.
+        // Before, origin_ns is 0, or minus the time at which the last visit of the resumed rounds
+        // began.
         d->origin_ns += begin_ns;
         d->has_begun = true;
     }
@@ -199,7 +201,8 @@ static bool begin_round(DipDriver *d, DipError *err) {
         if (!dip_driver_plan_round(d)) {
             return out_of_memory(err);
         }
-        d->round += d->plan_count == 0; // No frame of this round has to be drawn again.
+        // The plan is empty if no frame of the round has to be drawn again.
+        d->round += d->plan_count == 0;
     } while (d->plan_count == 0);
     const int start = !dip_driver_repeats(d) ? d->round / d->def.rounds
                       : d->start >= 0        ? d->start

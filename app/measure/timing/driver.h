@@ -53,7 +53,8 @@ typedef struct DipDriverDef {
     int frames;         // Frames of the path.
     // 0 if every round draws all frames of all subjects. Otherwise frames are dealt to rounds: each
     // frame of a base is timed in this many rounds (at most starts * rounds), and each frame of
-    // another subject in one of these. `frames` must then be at least starts * rounds.
+    // another subject is timed in one of these rounds. `frames` must then be at least starts *
+    // rounds.
     int base_copies;
     int warm_frames; // Frames that each subject draws untimed when a start begins.
     uint64_t seed;   // Seed of all random orders.
@@ -106,8 +107,8 @@ typedef struct DipDriverCalls {
     // Begins a start, for example by starting a process. May be NULL.
     bool (*start)(void *context, int start, DipError *err);
 
-    // Receives the timed frames of each round when it is complete, for example to write them to a
-    // journal. May be NULL.
+    // Receives the timed frames of each complete round, for example to write them to a journal. May
+    // be NULL.
     bool (*keep)(void *context, const DipTimed *timed, int count, DipError *err);
 
     int64_t (*clock_ns)(void *context);        // If NULL, the driver reads the monotonic clock.
@@ -126,8 +127,8 @@ typedef enum DipDriverStep {
     DIP_DRIVER_FAILED
 } DipDriverStep;
 
-// Makes a driver. Unless calls->thread_use is set, it watches the threads of this process; those
-// that draw must then exist before. Fails with DIP_ERROR_MEMORY.
+// Makes a driver. Unless calls->thread_use is set, the driver watches the threads of this process,
+// and the threads that draw must exist before. Fails with DIP_ERROR_MEMORY.
 DIP_API DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCalls *calls,
                                      DipError *err);
 DIP_API void dip_driver_destroy(DipDriver **driver);

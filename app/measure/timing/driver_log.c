@@ -1,5 +1,5 @@
-// Keeps the frames of complete rounds, and replaces those that other programs disturbed by those of
-// repetitions.
+// Keeps the frames of complete rounds, and replaces frames that other programs disturbed by frames
+// of repetitions.
 #include "app/measure/timing/driver_private.h"
 
 static void add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
@@ -30,8 +30,8 @@ static int find_in_log(const DipDriver *d, const DipTimed *timed) {
     return i;
 }
 
-// Returns whether a base's frame of a repetition is in the log already. It is if the new time of
-// another subject in the same block was kept.
+// Returns whether a base's frame of a repetition is in the log already. This is so if the new time
+// of another subject in the same block was kept.
 static bool is_in_log(const DipDriver *d, const DipTimed *timed) {
     bool found = false;
     for (int i = d->log_begin[dip_driver_round_count(d)]; i < d->log_count && !found; i++) {

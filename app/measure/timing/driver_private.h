@@ -1,5 +1,5 @@
-// What the parts of the timing driver share: driver.c draws frames step by step, driver_plan.c
-// plans starts and rounds, driver_log.c keeps the frames of complete rounds.
+// Declares what the files of the timing driver share. driver.c draws frames step by step,
+// driver_plan.c plans starts and rounds, and driver_log.c keeps the frames of complete rounds.
 #ifndef DIP_APP_MEASURE_TIMING_DRIVER_PRIVATE_H
 #define DIP_APP_MEASURE_TIMING_DRIVER_PRIVATE_H
 
@@ -54,7 +54,7 @@ struct DipDriver {
     // The plan of the start or round that is being drawn.
     DipDriverDraw *plan;
     int plan_count, plan_room;
-    bool plan_failed;       // Memory ran out.
+    bool plan_failed;       // True if memory ran out.
     int next;               // Index in `plan` of the frame that the next step draws.
     int *members;           // Subjects that the round draws besides the bases, grouped by base.
     DipDriverBlock *blocks; // Blocks of the round, in the order in which they are drawn.
@@ -120,8 +120,9 @@ static inline bool dip_driver_is_disturbed(const DipDriver *d, double wait, doub
 bool dip_driver_plan_start(DipDriver *d);
 bool dip_driver_plan_round(DipDriver *d);
 
-// Adds the fresh frames to the log and goes to the next round. The frames of a repetition only
-// replace worse ones.
+// Adds the fresh frames to the log and goes to the next round. Frames of a repetition replace
+// disturbed frames whose threads waited longer. Of the base's frames, only those beside such a
+// frame are added.
 void dip_driver_end_round(DipDriver *d);
 
 #endif

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 struct DipThreadWatch {
-    int *files; // One schedstat per thread, open for reading.
+    int *files; // The file schedstat of each watched thread, open for reading.
     int count;
 };
 

@@ -43,7 +43,8 @@ DIP_API DipThreadWatch *dip_thread_watch_open_process(long pid);
 DIP_API int dip_thread_watch_count(const DipThreadWatch *watch);
 
 // Reads the sums. Takes a few microseconds per thread. `switches` is always that of the calling
-// process. If the watch is NULL, has_wait is false, and cpu_ns is the calling process' time.
+// process. If the watch is NULL, has_wait is false, and cpu_ns is the processor time of the calling
+// process.
 DIP_API DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
 
 #ifdef __cplusplus
