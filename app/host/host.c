@@ -154,7 +154,7 @@ int main(int argc, char **argv) {
         }
         struct pollfd waits[] = {{ConnectionNumber(host.display), POLLIN, 0},
                                  {host.replies, POLLIN, 0}};
-        poll(waits, 2, -1); // A negative descriptor is ignored.
+        poll(waits, 2, -1); // poll ignores a negative descriptor.
         if (waits[1].revents && !print_replies(&host)) {
             end_guest(&host);
         }

@@ -1,6 +1,6 @@
 // Implements the command `diptych verify`. Draws pictures with every instruction set of the
 // machine, on one thread and on several, and compares them with the hashes that Diptych ships. Then
-// measures the catalogue of hard cases (docs/stability.md). Prints a table of both.
+// measures the catalogue of hard cases (docs/stability.md). Prints the results of both.
 #include "app/verify/verify.h"
 
 #include "app/cli/machine.h"
