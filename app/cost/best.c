@@ -31,9 +31,9 @@ bool dip_cost_add_rows(DipCostReport *report, const int *list, int count, int *r
     return true;
 }
 
-// Predicts every listed combination that has no row, from those that have one. If not all
-// combinations are listed, since they are too many, first searches all of them for the best, and
-// lists these. Free the models even after a failure.
+// Predicts every listed combination that has no row, from those that have one. If there are too
+// many combinations to list, first searches all of them for the best, and lists the best. Free the
+// models even after a failure.
 static bool predict(DipCostReport *report, DipPool *pool, DipCostModels *models, DipError *err) {
     return dip_cost_models_of(report, models, err) &&
            (report->predicted.searched <= DIP_COST_MAX_ROWS ||

@@ -42,7 +42,7 @@ typedef struct DipCostContext {
     // The command line with which the program starts itself to time frames in other processes
     // (--starts). If it is NULL, all frames are timed in this process.
     const DipServeOptions *start;
-    bool has_warned; // The user was told that the machine is busy (look.c).
+    bool has_warned; // True if the user was told that the machine is busy (look.c).
     DipCostForecast forecast;
     double baseline_ms; // Mean time of a frame of the baseline, as dip_cost_look_at_machine
                         // measures it; 0 if nothing is timed.
@@ -55,9 +55,9 @@ bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipC
 void dip_cost_context_close(DipCostContext *cost);
 
 // dip_cost_draw_timed draws the timed frame `index` of a path, 0..dip_cost_frame_count - 1. Call
-// dip_cost_prepare_timed with the same arguments before. It lets the renderer's history begin anew.
-// If the settings blend frames with a history of earlier frames (taa=history), it then draws the
-// frame before `index`, if there is one.
+// dip_cost_prepare_timed with the same arguments before. dip_cost_prepare_timed lets the renderer's
+// history begin anew. If the settings blend frames with a history of earlier frames (taa=history),
+// dip_cost_prepare_timed then draws the frame before `index`, if there is one.
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,

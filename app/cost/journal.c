@@ -75,8 +75,8 @@ static bool read_file(DipCostJournal *journal, DipError *err) {
 }
 
 // Opens the file for writing and locks it, so that no other run writes to it. The lock ends with
-// the process, however that ends. A run that finishes may remove the file after this function has
-// opened it and before it has locked it; then a new file is opened.
+// the process, however the process ends. Another run may finish and remove the file between the
+// opening and the locking; then this function opens a new file.
 static bool open_file(DipCostJournal *journal, const char *folder, DipError *err) {
     struct stat status = {.st_nlink = 0};
     while (status.st_nlink == 0) {
@@ -127,7 +127,7 @@ void dip_cost_journal_close(DipCostJournal **state_pointer, bool finished) {
         if (finished) {
             remove(journal->file);
         }
-        fclose(journal->out); // Ends the lock.
+        fclose(journal->out); // This ends the lock.
     }
     free(journal->text);
     free(journal);

@@ -43,8 +43,8 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
                           const DipCostBurstErrors *errors, DipError *err);
 
 // Returns how many rounds the journal had when it was opened, counting only rounds that were stored
-// with its own plan hash. Sets *seed to the seed of the first of these rounds, if there are any.
-// `seed` may be NULL.
+// with this journal's plan hash. Sets *seed to the seed of the first of these rounds, if there are
+// any. `seed` may be NULL.
 int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
 // Returns the frames of a round, in the order in which they were stored. `round` is

@@ -11,7 +11,7 @@
 
 enum {
     LOOK_ROUNDS = 8,
-    LOOK_FRAMES = 16, // Frames of path 0, spread evenly.
+    LOOK_FRAMES = 16, // Number of frames of path 0 that are drawn, spread evenly.
     LOOK_COPIES = 3   // Rounds in which each frame of the baseline is drawn.
 };
 
@@ -63,8 +63,8 @@ void dip_cost_look_at_times(DipCostContext *cost, const DipTimed *timed, int cou
 }
 
 // Judges the machine by how long the threads waited and by how far the times of the two equal
-// subjects differ (the A/A times), and warns. Both signs may lead to a red verdict. The waiting
-// time alone leads to an amber one, since with so few frames, A/A times that are amber cannot be
+// subjects differ (the A/A times), and warns. Both signs can lead to a red verdict, but only the
+// waiting time can lead to an amber verdict: with so few frames, A/A times that are amber cannot be
 // told from green ones.
 static void judge(DipCostContext *cost, const DipDriver *driver, const DipTimesFit *fit) {
     static const int same[] = {1};

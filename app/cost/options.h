@@ -17,8 +17,8 @@ typedef struct DipCostArguments {
     bool quick;          // --quick: other options default to values for a fast, less exact report.
     DipCostOptions cost; // Its rounds, starts and seed are not set here: `measure` has them.
     DipMeasureOptions measure;
-    DipServeOptions serve; // Whether another process has started this one to draw frames for it,
-                           // and the command line.
+    DipServeOptions serve; // Says whether another process has started this one to draw frames for
+                           // it, and holds the command line.
 } DipCostArguments;
 
 extern const DipOptionParts dip_cost_option_parts;

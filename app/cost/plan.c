@@ -98,9 +98,10 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 // --- rows ----------------------------------------------------------------------------------------
 
 // Finds the row of these settings on this path, or adds it. Looks only at the rows from
-// combined_first on. With --predict, these are all rows but the base rows: the rows of the sweeps
-// are combinations, too. Without --predict, these are all rows: combined_first is still 0.
-// There is always room, because the sweeps need far fewer rows than DIP_COST_MAX_ROWS.
+// combined_first on. With --predict, these are all rows but the first two, the base row and the A/A
+// row: the rows of the sweeps are combinations, too. Without --predict, these are all rows:
+// combined_first is still 0. There is always room, because the sweeps need far fewer rows than
+// DIP_COST_MAX_ROWS.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, report->combined_first);
     if (known >= 0) {
@@ -283,8 +284,9 @@ void dip_cost_describe(DipCostReport *report, const DipSession *session) {
     report->height = session->pane_size.height;
 }
 
-// Returns whether the run chooses among predicted combinations. With budgets it does, unless the
-// user names the settings to combine or shares the work among machines.
+// Returns whether the run chooses among predicted combinations. It does with --predict. With
+// budgets it also does, unless the user names the settings to combine or shares the work among
+// machines.
 static bool predicts(const DipCostOptions *options) {
     return options->predict || (options->budget_count > 0 && !options->has_combined &&
                                 options->end_place == 0 && !options->errors_only);

@@ -150,8 +150,8 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
     return true;
 }
 
-// Returns whether the work of other combinations may be composed of that of this one: it differs
-// from the baseline in at most one group of settings, or is a corner.
+// Returns whether the work of other combinations may be composed of the work of this combination:
+// whether it differs from the baseline in at most one group of settings, or is a corner.
 static bool is_part(const DipCostReport *report, const DipQuality *quality) {
     const DipQuality *baseline = &report->options.baseline;
     return dip_work_count_groups(baseline, quality) <= 1 || dip_work_is_corner(baseline, quality);

@@ -61,7 +61,7 @@ typedef struct Line {
     DipCandidate chosen; // The common choice, with its time and error in this report.
     DipCandidate alone;  // The settings that would be chosen from this report alone.
     bool has_alone;
-    bool same;   // `alone` and `chosen` are the same row of the report.
+    bool same;   // True if `alone` and `chosen` are the same row of the report.
     double loss; // See dip_cost_common_share_lost.
 } Line;
 

@@ -26,7 +26,7 @@ static bool begin_match(DipCostCommon *common, DipError *err) {
     const DipCostReport *report = &common->reports[0];
     const DipCandidates *own = &report->choice.candidates;
     DipCandidates *all = &common->candidates;
-    dip_candidates_free(all); // The list of an earlier match.
+    dip_candidates_free(all); // Frees the list of an earlier match.
     all->list = malloc(((size_t)own->count + (size_t)report->same_count) * sizeof *all->list);
     if (!all->list) {
         return out_of_memory(err);

@@ -1,7 +1,7 @@
 // Makes common advice: for a time budget, one choice of settings for several reports. Each report
 // may have another scene, camera path, size or machine. Only combinations of settings that every
-// report has measured can be chosen; a row that draws the same pictures stands for one that was not
-// timed.
+// report has measured can be chosen; a row that draws the same pictures stands for a combination
+// that was not timed.
 #ifndef DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 #define DIP_APP_COST_ADVISE_COMMON_ADVICE_H
 
@@ -37,7 +37,7 @@ bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int c
                           DipTimeKind budget_of, DipError *err);
 
 // Lists the combinations that all of common->reports have. common->names must be filled in, too.
-// Fails for the same reasons as dip_cost_common_read.
+// Fails for the same reasons as dip_cost_common_read, except that no file is read.
 bool dip_cost_common_match(DipCostCommon *common, DipError *err);
 void dip_cost_common_free(DipCostCommon *common);
 

@@ -82,8 +82,9 @@ typedef struct DipCostDiffRow {
     DipQuality quality;
     char path[16];
     double values[2][DIP_COST_DIFF_QUANTITY_COUNT]; // NAN if not known or not comparable.
-    bool timed;                                     // Both sides have a time.
-    bool is_base;                                   // Reports only: the row is the baseline.
+    bool timed;                                     // True if both sides have a time.
+    bool is_base;                                   // Reports only: true if the row is the
+                                                    // baseline.
     double ms[2];                                   // Mean time of a frame.
     DipEstimate ratios[2];                          // Reports only: time / the baseline's time.
     // For programs B's time / A's time, for reports B's ratio / A's ratio, with the interval.
@@ -108,9 +109,10 @@ typedef struct DipCostDiff {
     char machines[2][256];     // "Xeon, 2 threads, avx512"; "" if not known.
     char builds[2][33];        // Hash of the program's file; "" if not known.
     char scene[DIP_COST_TEXT]; // "court.gltf, 640x480 pixels"; "" if not known.
-    bool some_rows;    // One side is a program that measured only some rows of the other side.
-    bool same_machine; // The sides' machines, threads and instruction sets are the same.
-    bool has_times;    // The times may be compared.
+    bool some_rows;    // True if one side is a program that measured only some rows of the other
+                       // side.
+    bool same_machine; // True if the sides' machines, threads and instruction sets are the same.
+    bool has_times;    // True if the times may be compared.
     DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
     char reasons[2][DIP_COST_REASON];
     DipCostDiffRow *rows; // Owned.

@@ -34,8 +34,9 @@ typedef struct Duel {
     int starts;
     int rounds;
     int frames;
-    int threads;       // Number of threads of a program that draw.
-    DipDriver *driver; // Times of the subjects 2 * pair + side. Side 0 is the base. Owned.
+    int threads;       // Number of threads with which a program draws.
+    DipDriver *driver; // Times the subjects. Subject 2 * pair + side is one side of a pair; side 0
+                       // is its base. Owned.
     DipTimesFit *fit;  // Owned.
     // [subject * frames + frame]: the frame's first drawing, with its counters and hash. Owned.
     DipBenchSample *first;
@@ -381,9 +382,10 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
-// Returns the options. Those of size, threads, instruction set and camera path that were not given
-// get the values with which the report was measured, the path only if no model was given. If this
-// machine lacks the report's instruction set, the best one that the machine has takes its place.
+// Returns the options. The options of size, threads, instruction set and camera path that were not
+// given get the values with which the report was measured. The path gets its value only if no model
+// was given, either. If this machine lacks the report's instruction set, the best one that the
+// machine has takes its place.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;
@@ -403,7 +405,8 @@ static DipCostDiffArguments options_of_report(const DipCostDiffArguments *argume
         session->isa = known ? isa : dip_isa_best();
     }
     if (!session->path && !session->model_count && !session->category) {
-        session->path = report->paths[0]; // A camera of the scene, unless it is a category.
+        session->path = report->paths[0]; // This is taken as the name of a camera of the scene,
+                                          // unless it names a category.
         for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
             if (strcmp(dip_session_category(c), report->paths[0]) == 0) {
                 session->category = report->paths[0];

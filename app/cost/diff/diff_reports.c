@@ -14,13 +14,13 @@ enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.
 
 // Says which parts of two reports may be compared.
 typedef struct Comparable {
-    bool pictures; // Size and scene are the same; an unknown scene (of a program) counts as the
-                   // same. If not, the next three are false.
-    bool errors; // The numbers of viewpoints, frames and samples, and the pixels per degree are the
-                 // same.
-    bool counters;                   // Both reports have times, of equally many frames.
-    bool ratios;                     // Both reports have times, and the same baseline.
-    bool poses[DIP_COST_MAX_PATHS];  // [path of A]: B has the same poses (same_poses).
+    bool pictures; // True if size and scene are the same; an unknown scene (of a program) counts as
+                   // the same. If this is false, so are the next three.
+    bool errors; // True if the numbers of viewpoints, frames and samples, and the pixels per degree
+                 // are the same.
+    bool counters;                   // True if both reports have times, of equally many frames.
+    bool ratios;                     // True if both reports have times, and the same baseline.
+    bool poses[DIP_COST_MAX_PATHS];  // [path of A]: true if B has the same poses (same_poses).
     int path_of[DIP_COST_MAX_PATHS]; // [path of A]: the path of B with this name, or -1.
 } Comparable;
 

@@ -74,9 +74,9 @@ static bool list_combinations(DipCostElsewherePrediction *p, const char *name, D
 // --- counting ------------------------------------------------------------------------------------
 
 // Mends the counters, which come from only a few of the timed frames. Counts the work of one
-// combination in all timed frames. This is the baseline, or the first combination if the baseline
-// is not listed. Then scales the counters of all combinations by the ratio of this one's work in
-// all frames to its work in the few.
+// combination in all timed frames: of the baseline, or of the first combination if the baseline is
+// not listed. Then scales the counters of all combinations by the ratio of this combination's work
+// in all frames to its work in the few frames.
 static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
     const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
@@ -201,7 +201,8 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
 // "there". It has the same scene, but its own threads and instruction set.
 typedef struct Place {
     DipSession session;
-    DipPool *pool; // Owned; NULL if the pool of the command's session has the right threads.
+    DipPool *pool; // Owned; NULL if the pool of the command's session has the right number of
+                   // threads.
 } Place;
 
 static bool open_place(Place *place, const DipSession *session, int threads, DipIsa isa,

@@ -44,7 +44,8 @@ typedef struct DipCostPredictedThere {
 // baseline, so the machine's speed today does not matter.
 typedef struct DipCostElsewherePrediction {
     DipCostReport report;
-    DipCostReport there;         // Size, path and threads; no rows.
+    DipCostReport there;         // The size, path, threads and instruction set there. It has no
+                                 // rows; `predicted` has the counted work.
     DipCostMisses fit;           // Misses of the report's rows, each predicted from the other rows.
     DipCostPredictedThere *list; // Owned; `count` of them, in the order of the report.
     int count;
