@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 // Standard error of a time's logarithm between two runs on a quiet machine. It is combined with the
-// error of every row's time, if that is known.
+// error of a row's time, if that error is known.
 static const double least_error = 0.002;
 
 // Returns a row's time of this kind. Its error leaves out time->level_error, which all rows share.

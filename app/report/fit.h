@@ -58,9 +58,10 @@ typedef struct DipCostModel {
 } DipCostModel;
 
 // Fits prices to the rows whose value is known. (A time is known if the times of the stages are.)
-// Minimises the squares of deviations relative to each row's time or FLIP, so that slow rows have
-// no more weight than fast ones. Prices of time are also fitted to the combinations at half the
-// size (report->smaller). Here and below, `rows` may be NULL, which means the rows 0 to count - 1.
+// Minimises the sum of squared deviations, each relative to the row's time or FLIP, so that slow
+// rows have no more weight than fast ones. Prices of time are also fitted to the combinations at
+// half the size (report->smaller). Here and below, `rows` may be NULL, which means the rows 0 to
+// count - 1.
 DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
                                 int count);
 

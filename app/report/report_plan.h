@@ -41,7 +41,7 @@ typedef struct DipCostOptions {
     int timed_frames; // Frames of each round along a path; 0 if the report is of one picture
                       // (dip_cost_is_view).
     bool errors_only;
-    bool predict; // Measure a few combinations and predict all others.
+    bool predict; // True to measure a few combinations and predict all others.
     bool has_seed;
     int seed;
     bool has_combined;
@@ -49,7 +49,8 @@ typedef struct DipCostOptions {
     double budgets_ms[DIP_COST_MAX_BUDGETS];
     int budget_count;
     DipTimeKind budget_of;
-    bool require_quiet;          // Fail if the machine was too busy for the times to be believed.
+    bool require_quiet;          // True to fail if the machine was too busy for the times to be
+                                 // believed.
     const char *cache;           // Folder of the cached truths; NULL for the user's cache folder.
     DipCostPictureKind pictures; // Which pictures the HTML page has.
     const char *truths;          // Folder to write the truths to, as PFM; NULL to write none.

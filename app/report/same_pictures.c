@@ -32,7 +32,7 @@ static int representative(const DipCostReport *report, int row) {
 }
 
 // Tells where the rows of a report go. stands[i] is the row that stands for row combined_first + i.
-// If this is that row itself, now[i] is its new index.
+// If a row stands for itself, now[i] is its new index.
 typedef struct Joined {
     int first; // combined_first; the rows before it stay where they are.
     int *stands;
@@ -45,7 +45,7 @@ static int joined_row(const Joined *joined, int row) {
                                : joined->now[joined->stands[row - joined->first] - joined->first];
 }
 
-// Removes the frames of rows that another row stands for from the log. Gives the remaining frames
+// Removes from the log the frames of rows for which another row stands. Gives the remaining frames
 // the new indices of their rows.
 static void renumber_log(DipCostReport *report, const Joined *joined) {
     const int first = joined->first;

@@ -11,7 +11,8 @@
 
 // The signs from which a verdict follows.
 typedef struct DipCostSigns {
-    double wait;      // Waiting time of the threads, as a share of the time that all threads had.
+    double wait;      // Waiting time of the threads in all frames / (time of all frames * number of
+                      // threads).
     double spread;    // Greatest spread of an A/A ratio over the rounds (dip_times_spread).
     double offset;    // Greatest |log| of an A/A ratio.
     double disturbed; // Share of the times that stayed disturbed (rounds.h).

@@ -181,7 +181,7 @@ typedef struct DipColumn {
 bool dip_column_take(const char **columns, DipColumn *column);
 
 // Prints a line of CSV: an item, or the names of the columns if `at->item` is NULL. An estimate has
-// three columns. What is not known is empty.
+// three columns. The cell of a value that is not known is empty.
 void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const char *columns,
                           FILE *out);
 
@@ -190,7 +190,7 @@ void dip_fields_print_csv(const DipRecord *record, const DipFieldAt *at, const c
 enum { DIP_CELL_BYTES = 512 };
 
 // Writes an estimate's interval, "1.23 to 1.45", or "" if the interval is not known. Rounding
-// crosses no limit.
+// carries neither end over a limit.
 void dip_field_interval_text(const DipField *field, DipLimits limits, const DipEstimate *estimate,
                              char text[DIP_CELL_BYTES]);
 

@@ -19,7 +19,7 @@ typedef struct Cutter {
     DipFlipAnalysis truth_side; // What FLIP computes from the truth alone.
     uint8_t *truth;             // The truth's pixels, rgba8.
     uint8_t *frames;            // Frames, [picture of the set][pixel], rgba8.
-    uint8_t *maps;              // FLIP maps in 1/255, [picture of the set][pixel].
+    uint8_t *maps;              // FLIP maps in units of 1/255, [picture of the set][pixel].
     float *map;                 // FLIP map of one frame.
     uint8_t crop[DIP_COST_CROP_WIDTH * DIP_COST_CROP_HEIGHT]; // Crop of a FLIP map.
 } Cutter;
@@ -173,8 +173,8 @@ char *dip_cost_data_uri(const char *type, const unsigned char *bytes, size_t siz
 
 // --- encoding ------------------------------------------------------------------------------------
 
-// Turns an encoded picture into a data URI and frees it. Returns NULL if the picture was not made,
-// because memory ran out.
+// Returns an encoded picture as a data URI, and frees the encoded picture. Returns NULL when memory
+// runs out. `made` is false if memory ran out before, and the picture was not made.
 static char *take_uri(bool made, const char *type, unsigned char *bytes, size_t size_bytes) {
     char *uri = made ? dip_cost_data_uri(type, bytes, size_bytes) : NULL;
     if (made) {
@@ -294,9 +294,9 @@ static bool has_crops(const DipCostPictureSet *set) {
 }
 
 // Frees the pictures of a set that do not fit in `room` bytes, and adds the number of their rows to
-// *left_out. If `frames` is false, frees the crops that do not fit. If it is true, whole frames
-// that fit take the place of crops, and the other frames are freed. The first row that fits also
-// needs room for the truth's picture. Returns the bytes that are left.
+// *left_out. If `frames` is false, frees the crops that do not fit. If `frames` is true, whole
+// frames that fit take the place of crops, and the other frames are freed. The first row that fits
+// also needs room for the truth's picture. Returns the bytes that are left.
 static double fit_set(DipCostPictureSet *set, bool frames, double room, int *left_out) {
     char **truth = frames ? &set->truth.frame : &set->truth.crop;
     double with_first = size_of(*truth);

@@ -8,9 +8,9 @@
 // no effect alone is priced together with its company: the settings that it needs, which are then
 // set both with the step and without it (view.h). AF and advanced AF are also priced together with
 // the antialiasing of the pane (one of the preview's two pictures), so that prices add up. If this
-// price was not measured, another price of which more is known stands for it: the price with the
-// pane's AA but the base's adaptive AA, or the price with the base's antialiasing. The first of
-// these is preferred if equally much is known of both.
+// price was not measured, another price stands for it, if more is known of that one: the price with
+// the pane's AA but the base's adaptive AA, or the price with the base's antialiasing. The first of
+// these two is preferred if equally much is known of both.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). If there are too few

@@ -1,6 +1,6 @@
-// Finds a combination's time of a frame: as measured, as predicted, or as the base's time plus the
-// prices of the steps that differ from the base. Lists the candidates for a choice from these
-// times.
+// Finds a combination's time of a frame: as measured, as predicted, or as the known time of the
+// base or of a similar combination plus the prices of the steps in which the two differ. Lists the
+// candidates for a choice from these times.
 #include "app/report/prices/prices.h"
 
 #include "app/report/report.h"

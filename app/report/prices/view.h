@@ -65,8 +65,9 @@ bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPr
 
 // Returns a predicted time with an error that follows from the misses of similar predictions. This
 // is the standard error of the time's logarithm: 90 % of a normal distribution with this standard
-// error lies within log(1 + misses->p90) of its mean. It is not below a fixed minimum, and has as
-// many degrees of freedom as there are misses. Without misses, the error is not known.
+// error lies within log(1 + misses->p90) of its mean. The standard error is not below a fixed
+// minimum, and has as many degrees of freedom as there are misses. Without misses, the error is not
+// known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 // --- questions -----------------------------------------------------------------------------------
@@ -87,9 +88,9 @@ DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 typedef struct DipPriceQuestion {
     DipQuality with;    // The base with the company and the step.
     DipQuality without; // The combination with the company but without the step.
-    bool is_base; // True if both combinations are equal: the other steps are compared with this
-                  // one. It is off for taa, aaa and aaf, bilinear for upscale, and the base's step
-                  // for all other settings except asd, which has no such step.
+    bool is_base;   // True if both combinations are equal: the other steps are compared with this
+                    // one. This step is off for taa, aaa and aaf, bilinear for upscale, and the
+                    // base's step for all other settings except asd, which has no such step.
     char needs[24]; // What the pane lacks for the step to do anything: "AF", or "".
 } DipPriceQuestion;
 
