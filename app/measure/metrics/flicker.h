@@ -23,7 +23,7 @@ typedef struct DipFlicker {
     double *mean;       // [value_count]: mean of e so far.
     double *deviation;  // [value_count]: sum of squared deviations of e from its mean.
     float *last;        // e of the previous frame.
-    size_t value_count; // Values of a frame.
+    size_t value_count; // Number of values of a frame.
     size_t added;       // Number of values that the unfinished frame has so far.
     int frame_count;
     double step_squares; // Sum of (e - previous e)^2 over all values and pairs of frames.

@@ -44,7 +44,8 @@ static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-// Return the width in pixels, and the number of pixels, of the largest block with its margin.
+// block_width returns the width in pixels of the largest block with its margin, and block_size
+// returns the number of its pixels.
 static size_t block_width(const DipFlip *flip) {
     return (size_t)smaller(flip->width, DIP_PICTURE_BLOCK + 2 * flip->reach_px);
 }
@@ -121,7 +122,7 @@ static void to_opponent(const float rgb[3], float *luma, float *red_green, float
     *blue = 200.0f * (xyz[1] - xyz[2]);
 }
 
-// Returns CIELab's compressive function.
+// Returns the value of CIELab's compressive function at x.
 static float lightness(float x) {
     const float limit = 6.0f / 29.0f;
     return x > limit * limit * limit ? cbrtf(x) : x / (3.0f * limit * limit) + 4.0f / 29.0f;
@@ -286,9 +287,9 @@ static float length(float x, float y) {
     return sqrtf(x * x + y * y);
 }
 
-// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to the share
-// 0.4 of the greatest one map to 0..0.95, and greater values to 0.95..1 (the paper's p_c and p_t).
-// The pixel is pixel i of `a` and pixel k of `b`.
+// Maps the colour distance of a pixel, raised to colour_exponent, to 0..1. Values up to 0.4 times
+// `greatest` map to 0..0.95, and greater values to 0.95..1 (the paper's p_c and p_t). The pixel is
+// pixel i of `a` and pixel k of `b`.
 static float colour_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnalysis *b, size_t k,
                           float greatest) {
     const float share = 0.4f, used = 0.95f;

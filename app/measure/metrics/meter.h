@@ -50,7 +50,7 @@ typedef struct DipMeter {
     int height;
     DipFlip flip;
     DipFlipAnalysis analysis; // Analysis of the standard, if the meter makes it.
-    int analysed;             // Blocks of the standard that the meter has analysed.
+    int analysed;             // Number of blocks of the standard that the meter has analysed.
     DipFlicker flicker;       // Used only for bursts of several frames.
     double squared_static;    // For bursts of one frame: the frame's squared static error.
     DipFlipTailMeter tail;    // The distribution of FLIP in the burst so far.

@@ -33,7 +33,7 @@ typedef struct DipPixelRect {
 // Pictures are judged in square blocks, so that the work can pause between two blocks. Blocks are
 // numbered row by row from the top left. The last block of a row or of a column may be smaller,
 // because it ends at the picture's border.
-enum { DIP_PICTURE_BLOCK = 96 }; // Side, pixels.
+enum { DIP_PICTURE_BLOCK = 96 }; // Side of a block, in pixels.
 
 DIP_API int dip_picture_block_count(int width, int height);
 DIP_API DipPixelRect dip_picture_block(int width, int height, int block);

@@ -53,7 +53,8 @@ DIP_API bool dip_child_draw(DipChild *child, const char *request, DipBenchSample
 
 // Runs in the child. Sends the greeting, then answers the requests on standard input until it is
 // closed. `draw` gets the line of a request and draws the frame. Before it, `prepare` gets the same
-// line and does what is not timed; it may be NULL. Fails with the error of `prepare` or `draw`.
+// line and does what is not timed. `prepare` may be NULL. Fails with the error of `prepare` or
+// `draw`.
 DIP_API bool dip_child_serve(const char *what, int count, int frames,
                              bool (*prepare)(void *context, const char *request, DipError *err),
                              bool (*draw)(void *context, const char *request,

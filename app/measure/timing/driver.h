@@ -133,10 +133,10 @@ DIP_API DipDriver *dip_driver_create(const DipDriverDef *def, const DipDriverCal
                                      DipError *err);
 DIP_API void dip_driver_destroy(DipDriver **driver);
 
-// Continues an earlier measurement with the same definition. `known` holds the frames that its
-// function `keep` received, in the same order. Call this before the first step. Returns false if
-// memory runs out, or if some frames are not those of a complete round of this definition; the
-// driver then draws this round and all later ones.
+// Continues an earlier measurement with the same definition. `known` holds the frames that the
+// function `keep` received in the earlier measurement, in the same order. Call this before the
+// first step. Returns false if memory runs out, or if some frames are not those of a complete round
+// of this definition; the driver then draws this round and all later ones.
 DIP_API bool dip_driver_resume(DipDriver *driver, const DipTimed *known, int count);
 
 // Draws at most one frame. Fails with DIP_ERROR_MEMORY, or with the error of a function of the

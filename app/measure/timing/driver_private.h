@@ -5,7 +5,7 @@
 
 #include "app/measure/timing/driver.h"
 
-enum { DIP_DRIVER_SETTLE_RUNS = 5 }; // Frames whose median tells whether the times are steady.
+enum { DIP_DRIVER_SETTLE_RUNS = 5 }; // Phase 2 takes the median of this many frame times.
 
 // A frame to draw, in a plan.
 typedef struct DipDriverDraw {
@@ -120,9 +120,9 @@ static inline bool dip_driver_is_disturbed(const DipDriver *d, double wait, doub
 bool dip_driver_plan_start(DipDriver *d);
 bool dip_driver_plan_round(DipDriver *d);
 
-// Adds the fresh frames to the log and goes to the next round. Frames of a repetition replace
-// disturbed frames whose threads waited longer. Of the base's frames, only those beside such a
-// frame are added.
+// Adds the fresh frames to the log and goes to the next round. In a repetition, keeps only fresh
+// frames whose threads waited less: they replace disturbed frames, and the base's frames beside
+// them are added.
 void dip_driver_end_round(DipDriver *d);
 
 #endif
