@@ -1,7 +1,7 @@
 // Checks the advice for each time budget (app/report/choice.h). A combination is timed again if it
-// is unclear whether it fits the budget. If a combination is advised already, only those that are
-// clearly better are timed again. This is repeated until each of them clearly fits or clearly does
-// not, but at most MOST_RACES times.
+// is unclear whether it fits the budget. If a combination is advised already, only combinations
+// that are clearly better are timed again. This is repeated until each of them clearly fits or
+// clearly does not, but at most MOST_RACES times.
 #include "app/cost/steps.h"
 
 #include "app/cli/progress.h"
@@ -11,7 +11,7 @@
 
 enum {
     MOST_AGAIN = 4, // Greatest number of rows that are timed again together.
-    MOST_RACES = 6  // Greatest number of times that this is done for each budget.
+    MOST_RACES = 6  // Greatest number of times that rows are timed again for a budget.
 };
 
 // True if it is unclear whether the candidate fits the budget: if the probability that it fits lies

@@ -18,7 +18,7 @@ enum { STEPS_PER_TRUTH = 1000 }; // Steps of the progress display for each truth
 
 typedef struct TruthProgress {
     DipProgress progress;
-    int64_t before; // Steps of the truths that are complete.
+    int64_t before; // Number of steps of all truths that are complete.
 } TruthProgress;
 
 static bool show_truth(void *context, double done) {

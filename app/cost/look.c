@@ -12,7 +12,7 @@
 enum {
     LOOK_ROUNDS = 8,
     LOOK_FRAMES = 16, // Number of frames of path 0 that are drawn, spread evenly.
-    LOOK_COPIES = 3   // Rounds in which each frame of the baseline is drawn.
+    LOOK_COPIES = 3   // Number of rounds in which each frame of the base subject is drawn.
 };
 
 // Returns the index of the timed frame of path 0 that a turn draws. The driver (driver.h) has two

@@ -28,7 +28,8 @@ void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflect
 // gallery's scene with its look.
 void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]);
 
-// These return the duration of a camera path of the report, and the pose at a time on that path.
+// These functions return the duration of a camera path of the report, and the pose at a time on
+// that path.
 int64_t dip_cost_path_duration_ns(const DipCostReport *report, const DipSession *session, int path);
 DipPose dip_cost_pose(const DipCostReport *report, const DipSession *session, int path,
                       int64_t time_ns);

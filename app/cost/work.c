@@ -82,7 +82,8 @@ static void add_corners(DipCostReport *report) {
 }
 
 // Adds random combinations, most of which differ from the baseline in several groups of settings.
-// Each group that has combined settings has the baseline's settings in about half of them.
+// Each group that has combined settings has the baseline's settings in about half of these
+// combinations.
 static void add_pool(DipCostReport *report, const int end[DIP_WORK_GROUPS]) {
     uint64_t random = 1;
     for (int i = 0; i < POOL; i++) {

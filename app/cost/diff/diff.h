@@ -30,7 +30,7 @@ enum {
 
 // A combination of settings to compare.
 typedef struct DipCostDiffSet {
-    char text[80]; // As it was typed.
+    char text[80]; // The text that the user typed.
     DipQuality quality;
 } DipCostDiffSet;
 
@@ -42,7 +42,8 @@ typedef struct DipCostDiffArguments {
     int side_count;
     DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
-    // 0 rounds mean DIP_COST_DIFF_ROUNDS if both sides are programs, and 1 if one is a report.
+    // If measure.rounds is 0, there are DIP_COST_DIFF_ROUNDS rounds if both sides are programs, and
+    // 1 round if one side is a report.
     DipMeasureOptions measure;
     int frames;       // 0 means DIP_COST_DIFF_FRAMES. Used only if both sides are programs.
     double fail_over; // 1.03 for --fail-over 3%; 0 without this option.
@@ -166,7 +167,7 @@ void dip_cost_diff_mark(DipCostDiff *diff);
 typedef struct DipCostDiffChange {
     int quantity;
     int rows;     // Number of rows in which the quantity differs.
-    int greatest; // The row with the greatest change.
+    int greatest; // Index of the row with the greatest change.
     double least; // Least growth in these rows (dip_cost_diff_growth).
     double most;  // Greatest growth in these rows.
 } DipCostDiffChange;

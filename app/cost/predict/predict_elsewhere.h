@@ -47,11 +47,12 @@ typedef struct DipCostElsewherePrediction {
     DipCostReport there;         // The size, path, threads and instruction set there. It has no
                                  // rows; `predicted` has the counted work.
     DipCostMisses fit;           // Misses of the report's rows, each predicted from the other rows.
-    DipCostPredictedThere *list; // Owned; `count` of them, in the order of the report.
+    DipCostPredictedThere *list; // [count]: the combinations, in the order of the report. Owned.
     int count;
     DipCostElsewhere timed[2 * DIP_COST_MOST_TIMED];
     int timed_count;   // Prices are fitted to the first timed_count combinations of `timed`.
-    int checked_count; // The checked_count after these are only compared with their predictions.
+    int checked_count; // The next checked_count combinations of `timed` are only compared with
+                       // their predictions.
     // Median of time / as_is_ms of the combinations to which prices are fitted; 1 if there are
     // none.
     double factor;
@@ -66,9 +67,9 @@ typedef struct DipCostElsewherePrediction {
 // Reads the report, counts the work of its combinations there, times a few there and predicts all.
 // Shows its progress on standard error. Free the prediction even after a failure. Fails as
 // dip_cost_read_report and the renderer do. Also fails with CONFLICT if the session's scene is not
-// the report's, or if its camera path with the name of the report's path 0 has other poses, with
-// MISSING if the report has no times or no combinations, and with UNSUPPORTED if this machine lacks
-// the report's instruction set.
+// the report's, or if the session's camera path with the name of the report's path 0 has other
+// poses, with MISSING if the report has no times or no combinations, and with UNSUPPORTED if this
+// machine lacks the report's instruction set.
 bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSession *session,
                             const DipCostPredictArguments *arguments, DipError *err);
 void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);
