@@ -30,7 +30,7 @@ typedef struct DipCandidate {
                          // picture makes.
     double flip;         // FLIP as it was measured.
     int row;             // Index by which the caller finds the combination again.
-    int report;          // With several reports, index of the one that the time comes from.
+    int report;          // With several reports, index of the report that the time comes from.
 } DipCandidate;
 
 typedef struct DipCandidates {
@@ -45,7 +45,7 @@ typedef struct DipCandidates {
 // difference is not worth a longer time.
 #define DIP_CLEARLY_BETTER 0.01
 
-// A candidate surely fits a budget if its time is within it with at least this probability.
+// A candidate surely fits a budget if its time is within the budget with at least this probability.
 #define DIP_SURELY_FITS 0.95
 
 // Returns the probability that a candidate's time is within the budget; NAN if the error of its
@@ -73,23 +73,23 @@ enum { DIP_ADVICE_TIES = 8 };
 typedef struct DipAdvice {
     double budget_ms;
     int chosen;  // -1 if no candidate surely fits (DIP_SURELY_FITS).
-    double fits; // Probability that the chosen one fits the budget; NAN if none is chosen.
+    double fits; // Probability that the chosen candidate fits the budget; NAN if none is chosen.
     // The other candidates that surely fit and whose loss is at most 1 % above the least loss of
     // those that surely fit, the fastest first.
     int ties[DIP_ADVICE_TIES];
     int tie_count; // Number of all ties; the list has the first DIP_ADVICE_TIES.
     int next; // The next better candidate than the chosen one (dip_next_better), or the fastest one
               // if none is chosen; -1 if there is none or if the times are disturbed.
-    double next_ms; // How much longer `next` takes than the chosen one, or than the budget if none
-                    // is chosen.
+    double next_ms; // How much longer `next` takes than the chosen candidate, or than the budget if
+                    // none is chosen.
     double next_fits; // Probability that `next` fits this budget; NAN if `next` is -1.
 } DipAdvice;
 
 // Chooses among the candidates that surely fit and whose loss is at most 1 % above the least loss
 // of those that surely fit. Keeps the fastest of these, and those whose time has an interval that
-// overlaps the fastest one's, since their times cannot be told apart. Chooses the one of them with
-// the fewest settings off their defaults; if several have equally few, the fastest. If the times
-// are disturbed, `chosen` and `next` are -1.
+// overlaps the fastest one's, since their times cannot be told apart. Of these candidates, chooses
+// the one with the fewest settings off their defaults; if several have equally few, chooses the
+// fastest of them. If the times are disturbed, `chosen` and `next` are -1.
 DipAdvice dip_advise(const DipCandidates *candidates, double budget_ms);
 
 #endif

@@ -9,10 +9,10 @@
 
 // Lists every combination of the steps of the settings in the mask `settings` (bit s for setting
 // s). All other settings are those of the baseline. Leaves out combinations that the renderer
-// refuses, and those in which an enabled setting has no effect (dip_quality_effective), since
-// another combination draws the same picture. Advanced AF without AF is an example. If asd is among
-// the settings, also leaves out aaa=all with groups of several samples, because frames with aaa=all
-// take long. Returns the number of combinations; the list has the first `room` of them.
+// refuses, and combinations in which an enabled setting has no effect (dip_quality_effective),
+// since another combination draws the same picture. Advanced AF without AF is an example. If asd is
+// among the settings, also leaves out aaa=all with groups of several samples, because frames with
+// aaa=all take long. Returns the number of combinations; the list has the first `room` of them.
 int dip_cost_list_combinations(const DipQuality *baseline, unsigned settings, DipQuality *list,
                                int room);
 
@@ -49,8 +49,8 @@ double dip_cost_pixels_filtered(const DipQuality *quality);
 
 enum { DIP_WORK_GROUPS = 9 };
 
-// Returns the mask of the settings of a group, 0 to DIP_WORK_GROUPS - 1. Group 0 is that of
-// samples.
+// Returns the mask of the settings of a group, 0 to DIP_WORK_GROUPS - 1. Group 0 has the settings
+// of samples.
 unsigned dip_work_group(int group);
 
 // Returns the counters [DIP_COST_COUNTER_COUNT] of a combination, or NULL if it was not counted.

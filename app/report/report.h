@@ -139,7 +139,7 @@ typedef struct DipCostMisses {
 } DipCostMisses;
 
 // A combination that --predict lists, on path 0 (app/cost/predict.c). Its time and error are
-// predicted, unless it is one of those that are measured to predict the others (`trained` below).
+// predicted, unless the combination is measured to predict the others (`trained` below).
 typedef struct DipCostPrediction {
     DipQuality quality;
     double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
@@ -229,7 +229,7 @@ typedef struct DipCostReport {
     // grows with the picture and which does not. The model of times (fit.h) needs to know this to
     // predict the times of other sizes.
     DipCostElsewhere smaller[DIP_COST_MAX_SMALLER];
-    int smaller_count; // 0 if they were not timed.
+    int smaller_count; // 0 if no such combinations were timed.
     int smaller_width; // Pixels.
     int smaller_height;
     struct DipCostAnalysis *analysis; // Owned; NULL until dip_cost_analyse (analysis.h).
@@ -432,16 +432,18 @@ DipEstimate dip_cost_ratio(const DipCostReport *report, int row, int base);
 DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeKind kind);
 
 // Lists report->predicted as candidates, whose `row` is the index of the prediction. If `measured`
-// is true, combinations that have a row have its time and error. Otherwise all have those of their
-// predictions. A prediction has no time of its slowest frame, so its 95th percentile stands for it.
-// The caller frees the list even after a failure. Fails with DIP_ERROR_MEMORY.
+// is true, combinations that have a row have its time and error. Otherwise all combinations have
+// the time and error of their predictions. A prediction has no time of its slowest frame, so its
+// 95th percentile stands for it. The caller frees the list even after a failure. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_candidates_of_predictions(const DipCostReport *report, DipTimeKind kind, bool measured,
                                    DipCandidates *candidates, DipError *err);
 
 // Lists the predictions that a page shows, in order of predicted time. If there are more than
-// DIP_CANDIDATES_LISTED, lists at most this many of those that were measured and those on the
-// Pareto front of predicted times and errors. A candidate's `row` is the index of the prediction.
-// The caller frees the list even after a failure. Returns false when memory runs out.
+// DIP_CANDIDATES_LISTED, lists at most this many of the predictions whose combinations were
+// measured or lie on the Pareto front of predicted times and errors. A candidate's `row` is the
+// index of the prediction. The caller frees the list even after a failure. Returns false when
+// memory runs out.
 enum { DIP_CANDIDATES_LISTED = 500 };
 bool dip_candidates_to_list(const DipCostReport *report, DipCandidates *listed);
 void dip_candidates_free(DipCandidates *candidates);

@@ -15,8 +15,9 @@ bool dip_cost_same_pictures(const DipCostReport *report, int a, int b) {
     return same;
 }
 
-// Returns the row that stands for this one. Of all combinations with the same pictures, it is the
-// one with the fewest settings off their defaults. If there are several of these, it is the first.
+// Returns the row that stands for the row `row`. Of all combinations with the same pictures, it is
+// the one with the fewest settings off their defaults. If several have equally few, it is the first
+// of them.
 static int representative(const DipCostReport *report, int row) {
     int best = row;
     int least = dip_quality_count_changes(&report->rows[row].quality);

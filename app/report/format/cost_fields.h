@@ -29,8 +29,8 @@
 #define DIP_SHOWN(KIND, function)                                                                  \
     .kind = DIP_FIELD_##KIND, .where = DIP_FIELD_DERIVED, .derive = function
 // Initialisers of a DipField that is a list, of facts (DIP_LIST) or of derived values
-// (DIP_DERIVED_LIST). The arguments are the initialisers of its DipFieldList. DIP_ARRAY gives those
-// of a list whose items lie in an array that is a member of the owner.
+// (DIP_DERIVED_LIST). The arguments are the initialisers of its DipFieldList. DIP_ARRAY gives the
+// initialisers for a list whose items lie in an array that is a member of the owner.
 #define DIP_LIST_OF(WHERE, ...)                                                                    \
     .kind = DIP_FIELD_LIST, .where = WHERE, .list = &(const DipFieldList) {                        \
         __VA_ARGS__                                                                                \
@@ -39,8 +39,8 @@
 #define DIP_DERIVED_LIST(...) DIP_LIST_OF(DIP_FIELD_JSON | DIP_FIELD_DERIVED, __VA_ARGS__)
 #define DIP_ARRAY(OWNER, MEMBER, COUNTED)                                                          \
     .items = offsetof(OWNER, MEMBER), .counted = offsetof(OWNER, COUNTED)
-// DIP_DERIVE defines a function that derives a field (DipFieldDerive). DIP_GET_ITEM defines one
-// that gets an item of a list (DipFieldList.item).
+// DIP_DERIVE defines a function that derives a field (DipFieldDerive). DIP_GET_ITEM defines a
+// function that gets an item of a list (DipFieldList.item).
 #define DIP_DERIVE(name, value)                                                                    \
     static const void *name(const DipFieldAt *at, DipFieldScratch *scratch) {                      \
         (void)at;                                                                                  \

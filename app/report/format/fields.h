@@ -67,9 +67,9 @@ typedef struct DipRecord {
     const char *means; // A sentence for the documentation.
     const struct DipField *fields;
     int count;
-    // Bytes from item to item. If it is 0, the items are no structs of their own. Their owner then
-    // has an array for each field, and item i's value of the field lies i * DipField.stride bytes
-    // behind the array's start.
+    // Bytes from item to item. If `size` is 0, the items are no structs of their own. Their owner
+    // then has an array for each field, and item i's value of the field lies i * DipField.stride
+    // bytes behind the array's start.
     size_t size;
     // Returns whether the facts of an item fit together. It is called once all facts of the item
     // have been read. NULL if they always fit.
@@ -111,7 +111,8 @@ typedef struct DipField {
     double scale;       // Tables for people show the value times this, in `unit`; 0 means 1.
     double least, most; // Range of a fact.
     size_t offset, size;
-    size_t stride; // Bytes from the value of an item to that of the next if both lie in one array.
+    size_t stride; // Bytes from one item's value to the next item's value, if both lie in one
+                   // array.
     const char *const *names; // Names of the values of DIP_FIELD_NAMED or of DIP_FIELD_NUMBERS.
     int name_count;           // Number of names that DIP_FIELD_NAMED accepts on reading.
     const DipRecord *record;
@@ -165,9 +166,9 @@ struct cJSON;
 bool dip_fields_read_json(const DipRecord *record, const DipFieldAt *at, const struct cJSON *object,
                           const char *file, DipError *err);
 
-// The columns of a table are listed in a text such as "settings; row.ms=time; row.counters=". It
-// has the paths of fields. After a path, there may be '=' and the title that the column has in this
-// table. Without '=', the title in CSV is the path with '_' in place of '.', and the title for
+// The columns of a table are listed in a text such as "settings; row.ms=time; row.counters=". The
+// text has the paths of fields. After a path, there may be '=' and the title that the column has in
+// this table. Without '=', the title in CSV is the path with '_' in place of '.', and the title for
 // people is the field's own. An object of numbers has a column for each number. In CSV, this column
 // has the title followed by the number's name (DipField.names). Tables for people show the number's
 // name alone.
@@ -212,8 +213,8 @@ typedef struct DipTable {
     DipLimits limits; // Milliseconds that no rounded time crosses: the budgets beside the table.
     bool (*shows)(const DipFieldAt *at); // Returns whether to show an item; NULL shows all items.
     // Items may have an int member with the index of the row of the report that the item shows, or
-    // -1 if it shows none. This points to that member of the first item. The other items have it at
-    // the same offset. NULL if no item shows a row.
+    // -1 if it shows none. `row` points to this member of the first item. The other items have it
+    // at the same offset. NULL if no item shows a row.
     const int *row;
     const char *set; // Name of the page's set of pictures of these rows; NULL if there is none.
 } DipTable;

@@ -1,6 +1,6 @@
 // Writes the section on time against error into the page: a plot of the combinations, a table and
-// pictures of those on the Pareto front, a table of the measured combinations, and one of the
-// predicted ones (dip_candidates_to_list).
+// pictures of those on the Pareto front, a table of the measured combinations, and a table of the
+// predicted combinations (dip_candidates_to_list).
 #include "app/report/page/html_parts.h"
 
 #include "app/files/put.h"

@@ -76,7 +76,8 @@ typedef struct Shown {
     const DipCostReport *report;
     const DipCostPictureSet *set;
     const char *name;          // Value of the attribute data-set.
-    const DipCostSweep *sweep; // Captions are the names of its steps; if NULL, they are settings.
+    const DipCostSweep *sweep; // Captions are the names of the sweep's steps, or settings if
+                               // `sweep` is NULL.
 } Shown;
 
 // Returns the caption of a picture.

@@ -49,7 +49,7 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
     }
     const double room = BAR_ROOM - 60.0;
     const DipEstimate ratio = sweep->ratios[index];
-    // The ratio of the step with which the others are compared has no interval (NAN).
+    // The ratio of the base step, with which the other steps are compared, has no interval (NAN).
     const double end = BAR_LEFT + room * fmax(ratio.value, ratio.high) / most;
     write_bar(out, BAR_LEFT, y, room * ratio.value / most, "bar-time");
     if (!isnan(ratio.low)) {

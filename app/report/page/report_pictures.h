@@ -56,9 +56,9 @@ typedef struct DipCostPictures {
 // The greatest size of a page, in bytes.
 #define DIP_COST_PAGE_BYTES 10000000.0
 
-// Gets a frame of every row of the sets, at the middle one of the run's viewpoints. Cuts out the
-// crops and, with --pictures full, also keeps whole frames. Leaves out pictures that do not fit in
-// a page. With --pictures none, makes no pictures.
+// Gets a frame of every row of the sets, at the run's middle viewpoint. Cuts out the crops and,
+// with --pictures full, also keeps whole frames. Leaves out pictures that do not fit in a page.
+// With --pictures none, makes no pictures.
 bool dip_cost_pictures_make(DipCostPictures *pictures, const DipCostReport *report,
                             const DipCostFrameSource *source, DipError *err);
 void dip_cost_pictures_free(DipCostPictures *pictures);

@@ -45,9 +45,9 @@ static bool are_alike(const DipQuality *a, const DipQuality *b) {
 }
 
 // Predicts a row as if its combination had never been run, from the rows that are not like it
-// (are_alike). Returns the miss, or a negative value if the row's work cannot be composed from that
-// of other rows, if the row lies on another path than path 0, or if it differs from the base in
-// fewer than two groups of settings.
+// (are_alike). Returns the miss, or a negative value if the row's work cannot be composed from the
+// work of other rows, if the row lies on another path than path 0, or if it differs from the base
+// in fewer than two groups of settings.
 static double miss_of(const DipPriceView *view, const int *rows, int count, int row) {
     const DipCostRow *left_out = &view->report->rows[row];
     const DipQuality normal = dip_price_normal(&view->base, &left_out->quality);

@@ -142,9 +142,9 @@ DipPricesKnown dip_price_candidates(const DipPriceView *view, const DipQuality *
 // Lists the combinations that must be timed so that every step has a price, and so that the whole
 // times of both panes and of every combination one step away from the pane `requested` are known.
 // The base and the panes come first, then the combinations for the steps, ordered by their distance
-// from the steps of `requested`, and then those one step away. The combinations for AF and advanced
-// AF with the base's antialiasing come last. Writes at most `room` combinations; returns their
-// number.
+// from the steps of `requested`, and then the combinations one step away. The combinations for AF
+// and advanced AF with the base's antialiasing come last. Writes at most `room` combinations;
+// returns their number.
 enum { DIP_PRICE_MAX_WANTED = 96 };
 int dip_price_list_wanted(const DipQuality *base, const DipQuality *current,
                           const DipQuality *requested, DipQuality *list, int room);

@@ -57,8 +57,8 @@ static void ask_alone(DipPriceQuestion *question, DipSetting setting, int step, 
 }
 
 // Gives both combinations AA without adaptive AA: the pane's AA if it can be divided into groups of
-// this size, otherwise the fewest samples that can. If the pane has no AA and the group size is the
-// first one, gives them DIP_COST_COMPANY_AA.
+// this size, otherwise the fewest samples that can be divided so. If the pane has no AA and the
+// group size is the first one, gives them DIP_COST_COMPANY_AA.
 static void keep_samples(DipPriceQuestion *question, int asd, const DipQuality *quality) {
     const DipSettingInfo *aa = dip_setting_info(DIP_SETTING_AA);
     DipQuality try = question->without;

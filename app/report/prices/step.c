@@ -60,8 +60,8 @@ static int find_path(const DipPriceView *view, const DipPriceQuestion *question)
     return -1;
 }
 
-// Finds the path for the step with which the others are compared: the path on which the price of
-// another step was measured, or path 0 if there is none.
+// Finds the path for the step with which the other steps are compared: the path on which the price
+// of another step was measured, or path 0 if there is none.
 static int find_base_path(const DipPriceView *view, DipSetting setting, const DipQuality *pane) {
     for (int step = 0; step < dip_setting_info(setting)->step_count; step++) {
         const DipPriceQuestion question = dip_price_question(&view->base, setting, step, pane);

@@ -63,11 +63,11 @@ DipPriceWhole dip_price_known(const DipPriceView *view, const DipPriceEntry *ent
 // the report does not tell enough.
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole);
 
-// Returns a predicted time with an error that follows from the misses of similar predictions. This
-// is the standard error of the time's logarithm: 90 % of a normal distribution with this standard
-// error lies within log(1 + misses->p90) of its mean. The standard error is not below a fixed
-// minimum, and has as many degrees of freedom as there are misses. Without misses, the error is not
-// known.
+// Returns a predicted time with an error that follows from the misses of similar predictions. The
+// error is the standard error of the time's logarithm: 90 % of a normal distribution with this
+// standard error lies within log(1 + misses->p90) of its mean. The standard error is not below a
+// fixed minimum, and has as many degrees of freedom as there are misses. Without misses, the error
+// is not known.
 DipEstimate dip_price_predicted_time(double ms, const DipCostMisses *misses);
 
 // --- questions -----------------------------------------------------------------------------------
