@@ -18,8 +18,8 @@
 extern "C" {
 #endif
 
-// Resolutions at which a picture is seen: the usual value and the limits. The usual value is that
-// of a screen 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
+// Resolutions at which a picture is seen: the usual value and the limits. The usual value belongs
+// to a screen 0.7 m and 3840 pixels wide, seen from a distance of 0.7 m.
 #define DIP_FLIP_PIXELS_PER_DEGREE     67.0206451
 #define DIP_FLIP_MIN_PIXELS_PER_DEGREE 5.0
 #define DIP_FLIP_MAX_PIXELS_PER_DEGREE 500.0
@@ -29,7 +29,7 @@ typedef struct DipFlip {
     struct DipFlipKernels *kernels; // Owned.
     int width;
     int height;
-    int reach_px;     // Greatest distance, along x or y, at which a pixel influences another one.
+    int reach_px;     // Greatest distance, along x or y, at which a pixel influences another pixel.
     float *scratch;   // Owned; memory for filtering one block with its margin.
     float light[256]; // Linear light of each 8-bit sRGB value.
 } DipFlip;

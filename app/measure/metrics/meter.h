@@ -32,7 +32,8 @@ typedef enum DipMeterKind {
     DIP_METER_BURSTS       // The same metrics; a burst is a series of several frames (flicker.h).
 } DipMeterKind;
 
-// The picture with which others are compared. All data is borrowed and may be shared by threads.
+// The picture with which other pictures are compared. All data is borrowed and may be shared by
+// threads.
 typedef struct DipMeterStandard {
     DipSrgbPicture picture;
     // The same picture in linear light, 3 values per pixel. If it is NULL, squared differences in
@@ -89,8 +90,8 @@ DIP_API void dip_meter_begin(DipMeter *meter, const DipSrgbPicture *test, const 
 // picture were measured at once. Returns DONE after the last step, and FAILED when memory runs out.
 DIP_API DipStep dip_meter_step(DipMeter *meter);
 
-// Sets the standard, begins a picture, steps to its end and adds its sums to *sums. Returns false
-// when memory runs out.
+// Sets the standard, begins a picture, takes all its steps and adds its sums to *sums. Returns
+// false when memory runs out.
 DIP_API bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *test_lin,
                            const DipMeterStandard *standard, DipMetricSums *sums);
 

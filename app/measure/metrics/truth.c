@@ -30,7 +30,8 @@ const int dip_truth_level_samples[DIP_TRUTH_LEVELS] = {4, 16, DIP_TRUTH_SAMPLES}
 // What the next step of a job does.
 typedef enum Phase { LOAD, PREPARE, DRAW, JOIN, MEASURE_FLOOR, STORE, END } Phase;
 
-// One half of a truth, in the form in which it is drawn and in those that the meter compares.
+// One half of a truth, in the form in which it is drawn and in the two forms that the meter
+// compares.
 typedef struct Half {
     double *lin;    // Linear light. Owned; the other arrays lie in the same memory.
     float *rounded; // The same values as floats.
@@ -338,8 +339,8 @@ static DipSrgbPicture half_picture(const DipTruthJob *job, int half) {
                             job->def.height};
 }
 
-// Prepares the comparison of the halves. For all levels but the last one, only squared differences
-// are measured.
+// Prepares the comparison of the halves. For all levels but the last, only squared differences are
+// measured.
 static bool begin_floor(DipTruthJob *job, DipError *err) {
     const DipTruthDef *def = &job->def;
     const bool last = job->level == DIP_TRUTH_LEVELS - 1;

@@ -66,10 +66,10 @@ extern DIP_API const int dip_truth_level_samples[DIP_TRUTH_LEVELS]; // Samples p
 // A truth that is drawn in steps.
 typedef struct DipTruthJob DipTruthJob;
 
-// Begins a truth. The job reads it from the folder `cache` if it is there; otherwise, or if the
-// file is damaged, the job draws it and writes it to the folder. If `cache` is NULL, there is no
-// cache. Reference, scene hash and folder are borrowed. Processes may share a folder. Two jobs may
-// run at once if each has a reference renderer of its own.
+// Begins a truth. The job reads the truth from a file in the folder `cache`. If there is no such
+// file or if it is damaged, the job draws the truth and writes the file. If `cache` is NULL, there
+// is no cache. Reference, scene hash and folder are borrowed. Processes may share a folder. Two
+// jobs may run at once if each has a reference renderer of its own.
 //
 // A live job is one that a user waits for. It draws the coarser levels first, and one tile per
 // step, which takes a few milliseconds. It does not write the truth if the folder already holds
@@ -80,9 +80,9 @@ DIP_API DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *ca
                                           bool live, DipError *err);
 DIP_API void dip_truth_job_destroy(DipTruthJob **job);
 
-// Takes a step. Returns RESULT when the truth of a level is complete, and DONE when the last one is
-// complete and stored. Fails with MEMORY, with the error of the def's function `draw`, with IO if
-// the file cannot be written, or with OVERSIZED if its name is too long.
+// Takes a step. Returns RESULT when the truth of a level is complete, and DONE when the truth of
+// the last level is complete and stored. Fails with MEMORY, with the error of the def's function
+// `draw`, with IO if the file cannot be written, or with OVERSIZED if its name is too long.
 DIP_API DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
 
 // Returns the truth of the last complete level. Returns NULL if there is none, or while its memory

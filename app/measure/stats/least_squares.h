@@ -26,7 +26,7 @@ typedef struct DipNormalEquations {
 } DipNormalEquations;
 
 // Starts equations without rows. `scale` holds the greatest amount of each term, so that the units
-// of the terms do not matter. It is 0 for a term that no row has.
+// of the terms do not matter. `scale` is 0 for a term that no row has.
 DIP_API void dip_normal_equations_begin(DipNormalEquations *equations, int terms,
                                         const double *scale);
 

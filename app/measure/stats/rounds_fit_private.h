@@ -44,7 +44,7 @@ typedef struct DipTimesCell {
 // A moment is the set of all visits of the base in one round whose first frame on the path is the
 // same.
 typedef struct DipTimesMoment {
-    int round;       // Index of the round among those of all starts.
+    int round;       // Index of the round among the rounds of all starts.
     int first_frame; // The visits' first frame on the path.
 } DipTimesMoment;
 
@@ -133,7 +133,7 @@ static inline int dip_times_unit(const DipTimes *times, const DipTimed *timed) {
     return times->starts > 1 ? timed->start : timed->round;
 }
 
-// Returns the index of a frame's round among those of all starts.
+// Returns the index of a frame's round among the rounds of all starts.
 static inline int dip_times_round(const DipTimes *times, const DipTimed *timed) {
     return timed->start * times->rounds + timed->round;
 }

@@ -40,8 +40,8 @@ DIP_API DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 DIP_API int dip_child_thread_count(const DipChild *child);
 
 // Closes the child's standard input and waits until the child has ended. If at_once is true, first
-// sends the child SIGTERM, so that it ends silently instead of reporting that nobody reads its
-// answer.
+// sends the child SIGTERM, so that the child ends silently instead of reporting that nobody reads
+// its answer.
 DIP_API void dip_child_stop(DipChild **child, bool at_once);
 
 // Asks the child for a frame with a line of text and reads the answer. Fills in *sample, and in

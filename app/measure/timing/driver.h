@@ -1,8 +1,8 @@
 // Times frames. Every command that times frames uses this driver.
 //
 // A subject is anything that draws the frames of a path, for example the renderer with one set of
-// quality settings. Each subject is compared with another one, its base. A base is its own base, as
-// is a subject that is not compared with any other. A measurement has these phases:
+// quality settings. Each subject is compared with another subject, its base. A base is its own
+// base, as is a subject that is not compared with any other. A measurement has these phases:
 //   1. Start. A start is a new process, or just a new beginning in this one. Where memory lies and
 //      which cores the threads get makes a whole start faster or slower, so a measurement may have
 //      several starts, each with the same number of rounds. When a start begins, each subject draws
@@ -15,9 +15,9 @@
 //      round, the subjects of a base are divided at random into blocks. A block consists of a few
 //      subjects and the base, in random order. A visit draws the round's frames of one subject and
 //      times each: first the frames that all subjects draw, in path order, and then, for a base, a
-//      share of those that only the base draws. Before them, it draws the first frame untimed,
-//      because the previous subject has used the caches. A block visits each of its subjects once
-//      (but see in_turn).
+//      share of the frames that only the base draws. Before these frames, the visit draws the first
+//      of them untimed, because the previous subject has used the caches. A block visits each of
+//      its subjects once (but see in_turn).
 //   4. Repetition. A frame is disturbed if its threads, or those that drew the same frame of the
 //      base, waited too long for a core. The driver repeats rounds that have disturbed frames, each
 //      at most once. A repetition draws a subject, next to its base, if one of the subject's frames

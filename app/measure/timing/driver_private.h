@@ -22,7 +22,7 @@ typedef struct DipDriverBlock {
     int first;       // Index of its first subject in DipDriver.members.
     int count;       // Number of subjects besides the base.
     int number;      // No other block of the round or of its repetition has the same number.
-    int nth_of_base; // Index of this block among those of its base in the round.
+    int nth_of_base; // Index of this block among the blocks of its base in the round.
     int of_base;     // Number of blocks of this base in the round.
 } DipDriverBlock;
 
@@ -63,8 +63,8 @@ struct DipDriver {
     // Number of the frames that all subjects draw, and number of all elements of `frames`.
     int frame_count, all_frame_count;
     int *is_needed; // [subject]: 1 if the round draws the subject. Not used for bases.
-    int *score;     // [subject]: number of undisturbed frames minus three times that of disturbed
-                    // ones.
+    int *score;     // [subject]: number of undisturbed frames minus three times the number of
+                    // disturbed frames.
 
     DipTimed *fresh; // Frames of the incomplete round.
     int fresh_count;

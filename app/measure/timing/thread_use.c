@@ -47,8 +47,8 @@ static bool add_thread(DipThreadWatch *watch, const char *folder, const char *th
     return read_thread(file, &sum);
 }
 
-// Returns whether a thread has a lower priority than the calling one. Such a thread draws no timed
-// frame, so its waiting time says nothing about a frame.
+// Returns whether a thread has a lower priority than the calling thread. Such a thread draws no
+// timed frame, so its waiting time says nothing about a frame.
 static bool is_background(const char *thread) {
     return getpriority(PRIO_PROCESS, (id_t)strtoul(thread, NULL, 10)) >
            getpriority(PRIO_PROCESS, 0);
