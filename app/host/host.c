@@ -5,7 +5,7 @@
 //
 // The host makes a window with a row of buttons and an area below them. It starts the program with
 // --window-id, so that the preview fills the area, and with --control -, so that requests and
-// replies are lines on two pipes. It prints all that arrives. docs/embedding.md explains the
+// replies are lines on two pipes. The host prints all that arrives. docs/embedding.md explains the
 // protocol. The program in the area is called the guest.
 #include <X11/Xlib.h>
 
