@@ -1,7 +1,7 @@
 // Checks the advice for each time budget (app/report/choice.h). A combination is timed again if it
 // is unclear whether it fits the budget. If a combination is advised already, only combinations
-// that are clearly better are timed again. This is repeated until each of them clearly fits or
-// clearly does not, but at most MOST_RACES times.
+// that are clearly better are timed again. Such combinations are timed again until each of them
+// clearly fits or clearly does not, but at most MOST_RACES times.
 #include "app/cost/steps.h"
 
 #include "app/cli/progress.h"
@@ -21,9 +21,9 @@ static bool is_undecided(const DipCandidate *candidate, double budget_ms) {
     return fits > 1.0 - DIP_SURELY_FITS && fits < DIP_SURELY_FITS;
 }
 
-// Lists the undecided rows (is_undecided) whose loss (choice.h) is at least 1 % below that of the
-// row advised so far; if no row is advised, all undecided rows. Lists at most MOST_AGAIN rows, that
-// of the least loss first. Returns their number.
+// Lists the undecided rows (is_undecided) whose loss (choice.h) is at least 1 % below the loss of
+// the row advised so far; if no row is advised, all undecided rows. Lists at most MOST_AGAIN rows,
+// the row with the least loss first. Returns their number.
 static int list_undecided(const DipCostReport *report, int budget, int rows[MOST_AGAIN]) {
     const DipCandidates *candidates = &report->choice.candidates;
     const DipCandidate *chosen = dip_cost_chosen(report, budget);

@@ -1,5 +1,5 @@
 // Measures the combinations that are predicted to be best, in several goes. A go measures some of
-// them, and then predicts the others anew from all that were measured so far.
+// them, and then predicts the others anew from all combinations that were measured so far.
 #include "app/cost/steps.h"
 
 #include <math.h>
@@ -31,9 +31,9 @@ bool dip_cost_add_rows(DipCostReport *report, const int *list, int count, int *r
     return true;
 }
 
-// Predicts every listed combination that has no row, from those that have one. If there are too
-// many combinations to list, first searches all of them for the best, and lists the best. Free the
-// models even after a failure.
+// Predicts every listed combination that has no row, from the combinations that have a row. If
+// there are too many combinations to list, first searches all of them for the best, and lists the
+// best. Free the models even after a failure.
 static bool predict(DipCostReport *report, DipPool *pool, DipCostModels *models, DipError *err) {
     return dip_cost_models_of(report, models, err) &&
            (report->predicted.searched <= DIP_COST_MAX_ROWS ||

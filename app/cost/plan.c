@@ -60,8 +60,8 @@ static void name_path(const DipSession *session, int category, char name[DIP_COS
 }
 
 // Adds the camera path of a category to the report, and returns its index there. A category without
-// a path has that of the first category. Categories with the same path and field of view share one
-// entry, which has the name of the category that was added first.
+// a path has the path of the first category. Categories with the same path and field of view share
+// one entry, which has the name of the category that was added first.
 static int add_path(DipCostReport *report, const DipSession *session, int category) {
     const int own = session->track.categories[category].path ? category : 0;
     const DipCamCategory *slot = &session->track.categories[own];
@@ -140,8 +140,8 @@ static bool is_swept(const DipCostReport *report, DipSetting setting, const DipQ
            (combined >> setting & 1 && dip_quality_equal(&of_combined, base));
 }
 
-// Adds a sweep of a setting, with those of its steps that the renderer accepts. Lists the refused
-// steps with the reason.
+// Adds a sweep of a setting, with the steps that the renderer accepts. Lists the refused steps with
+// the reason.
 static void plan_setting(DipCostReport *report, const DipSession *session, DipSetting setting) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality base = report->options.baseline;
@@ -187,8 +187,8 @@ static void add_if_valid(DipCostReport *report, DipCostSweep *sweep, const DipQu
 
 // Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
 // on the number of samples. The steps go from few sample groups to many. aaa=all is combined with
-// only one group size, that of one sample (asd=1), since its frames take long. With --predict, adds
-// the sweep for only one number of samples.
+// only one group size, one sample (asd=1), since frames with aaa=all take long. With --predict,
+// adds the sweep for only one number of samples.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {

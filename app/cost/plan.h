@@ -19,7 +19,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
 // Fills in the report's scene and its hash, machine, program, threads and size.
 void dip_cost_describe(DipCostReport *report, const DipSession *session);
 
-// Writes a hash of a scene's content as 32 hexadecimal digits. It depends on everything that
+// Writes a hash of a scene's content as 32 hexadecimal digits. The hash depends on everything that
 // affects how the scene looks. The cache of truths (converged pictures) uses it to identify a
 // scene.
 void dip_cost_scene_hash(const DipSceneDef *def, const DipReflectionDef *reflection, char hex[33]);
@@ -39,7 +39,7 @@ void dip_cost_hash_path(DipCostReport *report, const DipSession *session, int pa
 
 // Returns the time of a frame at a viewpoint. The path is divided into equal parts, and each
 // viewpoint is the middle of a part. At each viewpoint, a burst of successive frames is drawn.
-// These frames are 1/30 s apart, and `frame` is the index in the burst. A negative index is that of
+// These frames are 1/30 s apart, and `frame` is the index in the burst. A negative index stands for
 // a frame before the burst.
 int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
                                    int viewpoint, int frame);

@@ -164,8 +164,8 @@ static bool is_counted(const DipCostReport *report, const DipQuality *quality) {
     return report->predicted.count <= DIP_COST_MOST_COUNTED || is_part(report, quality);
 }
 
-// Returns the counters of a combination that others are composed of, or NULL if it is no such
-// combination or is not listed. dip_work_compose calls this function.
+// Returns the counters of a combination that others are composed of, or NULL if no others are
+// composed of it or if it is not listed. dip_work_compose calls this function.
 static const double *find_counted(const void *context, const DipQuality *quality) {
     const DipCostReport *report = context;
     if (!is_part(report, quality)) {
@@ -201,8 +201,8 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
         cost->forecast.row_ms =
             1e3 * dip_progress_elapsed_s(&progress) / (double)(done * DIP_COST_COUNTED_FRAMES);
     }
-    // The counters of all other combinations are composed. A combination is drawn, too, if one that
-    // it is composed of is not listed.
+    // The counters of all other combinations are composed. A combination is drawn, too, if a
+    // combination that it is composed of is not listed.
     for (int i = 0; counted && i < predicted->count; i++) {
         DipCostPrediction *to = &predicted->list[i];
         counted = is_counted(report, &to->quality) || dip_cost_compose_counters(report, to) ||

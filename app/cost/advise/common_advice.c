@@ -13,7 +13,7 @@ static bool out_of_memory(DipError *err) {
 
 // --- matching ------------------------------------------------------------------------------------
 
-// Returns the row of a combination in a report, or that of a combination that draws the same
+// Returns the row of a combination in a report, or the row of a combination that draws the same
 // pictures. Returns -1 if there is no such row, or if the row's errors are not known.
 static int find_row(const DipCostReport *report, const DipQuality *quality) {
     const int row = dip_report_find_same(report, quality, report->combined_first);
@@ -92,7 +92,7 @@ static double bound_of(const DipCandidate *candidate) {
 }
 
 // Fills in the candidate that stands for a combination in all reports. Its FLIP is the mean over
-// the reports. Its time is that of the report in which it may take longest.
+// the reports. Its time is the combination's time in the report in which it may take longest.
 static void join(DipCostCommon *common, int combination) {
     DipCandidate *to = &common->candidates.list[combination];
     DipCandidate joined = {.time = dip_estimate_unknown(0.0)};

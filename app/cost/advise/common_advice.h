@@ -41,8 +41,8 @@ bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int c
 bool dip_cost_common_match(DipCostCommon *common, DipError *err);
 void dip_cost_common_free(DipCostCommon *common);
 
-// Returns the row of a combination in one report: its own, or that of a combination that draws the
-// same pictures.
+// Returns the row of a combination in one report: its own row, or the row of a combination that
+// draws the same pictures.
 int dip_cost_common_row(const DipCostCommon *common, int combination, int report);
 
 // Returns the time and error of a combination in one report.

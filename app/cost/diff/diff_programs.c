@@ -163,9 +163,9 @@ static bool start_programs(void *context, int start, DipError *err) {
             return false;
         }
         if (duel->threads == 0) {
-            // The program's ini file decides how many threads draw. Their number follows from that
-            // of all threads of the program: it has a pool for bench and one for the session, and
-            // the main thread is in both.
+            // The program's ini file decides how many threads draw. The number of threads that draw
+            // follows from the number of all threads of the program: the program has a pool for
+            // bench and a pool for the session, and the main thread is in both.
             const int threads = (dip_child_thread_count(p->children[i]) + 1) / 2;
             duel->threads = threads > 0 ? threads : 1;
         }
@@ -417,7 +417,7 @@ static DipCostDiffArguments options_of_report(const DipCostDiffArguments *argume
     return all;
 }
 
-// Fills in the new report. It has the first path of the old one, the baseline and `count` rows.
+// Fills in the new report. It has the first path of the old report, the baseline and `count` rows.
 static bool make_report(const DipCostReport *report, const Duel *duel, const int *rows, int count,
                         const DipSessionOptions *session, DipCostReport *measured, DipError *err) {
     *measured = (DipCostReport){

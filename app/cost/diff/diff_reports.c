@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A ratio differs a little from one start of a program to the next. This is the standard deviation
-// of its logarithm between starts, for reports of a single start, which cannot measure it.
+// A ratio differs a little from one start of a program to the next. start_error is the standard
+// deviation of the ratio's logarithm between starts. It is used for reports of a single start,
+// which cannot measure this deviation.
 static const double start_error = 0.006;
 
 enum { NAMED_ROWS = 4 }; // Greatest number of rows that a note names.

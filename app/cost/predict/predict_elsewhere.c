@@ -44,8 +44,8 @@ static void add_combination(DipCostElsewherePrediction *p, const DipQuality *qua
         (DipCostPrediction){.quality = *quality, .row = -1};
 }
 
-// Lists the report's combinations on path 0: first those that were measured, then those that were
-// only predicted.
+// Lists the report's combinations on path 0: first the measured combinations, then the combinations
+// that were only predicted.
 static bool list_combinations(DipCostElsewherePrediction *p, const char *name, DipError *err) {
     const DipCostReport *report = &p->report;
     const size_t most = (size_t)report->row_count + (size_t)report->predicted.count + 1;
@@ -101,8 +101,9 @@ static void add_timed(DipCostElsewherePrediction *p, int index) {
     p->timed[p->list[index].timed].quality = p->list[index].quality;
 }
 
-// Chooses the combinations to time there: those to which prices are fitted, which tell most about
-// all others, and then those to check, spread evenly over the rest of the list.
+// Chooses the combinations to time there: first the combinations to which prices are fitted, which
+// tell most about all others, and then combinations to check, spread evenly over the rest of the
+// list.
 static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, DipError *err) {
     int chosen[DIP_COST_MAX_ROWS];
     const int most = timed < p->count ? timed : p->count;

@@ -61,7 +61,8 @@ typedef struct DipCostElsewherePrediction {
     DipCostMisses timed_left_out;
     DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
     DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.
-    double wait; // Share of the threads' time in the timed frames for which they waited for a core.
+    double wait; // Waiting time of the threads in the timed frames / (time of these frames * number
+                 // of threads).
 } DipCostElsewherePrediction;
 
 // Reads the report, counts the work of its combinations there, times a few there and predicts all.
