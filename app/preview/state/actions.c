@@ -6,7 +6,7 @@
 
 static const int64_t ns_per_ms = 1000000;
 
-// An action that is carried out: the parameters of dip_preview_act.
+// The parameters of dip_preview_act, as each action's function gets them.
 typedef struct Act {
     DipPreviewState *state;
     int argument;
@@ -74,7 +74,7 @@ static bool has_path(const DipPreviewState *state, int category) {
     return state->track->categories[category].path != NULL;
 }
 
-// Plays the path of a category, or says that it has none.
+// Plays the path of a category. If the category has no path, a notice says so.
 static void play_path(DipPreviewState *state, int category, int64_t now_ns) {
     if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
         dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
@@ -92,11 +92,11 @@ static void choose_path(const Act *act) {
     play_path(act->state, act->argument, act->now_ns);
 }
 
-// Chooses the next category, in the given direction, whose path is not the current one. Several
-// categories may share a path.
+// Chooses the next category in the given direction (1 or -1) whose path is another one than the
+// path that plays. Several categories may share a path.
 static void step_path(const Act *act, int direction) {
     DipPreviewState *state = act->state;
-    if (state->shows_gallery) { // Each scene has one path, so the next scene shows.
+    if (state->shows_gallery) { // A scene of the gallery has only one path, so another scene shows.
         state->scene_step = direction;
         ++state->scene_changes;
         return;
@@ -224,7 +224,8 @@ static void zoom(const Act *act) {
     *zoom = wanted >= DIP_LOUPE_MIN_ZOOM && wanted <= DIP_LOUPE_MAX_ZOOM ? wanted : *zoom;
 }
 
-// Returns a tool's next value in a ring of `count` values, and opens the tool's tab.
+// Returns a tool's next value (reversed: the value before) in a ring of `count` values, and opens
+// the tool's tab.
 static int next_of(const Act *act, DipTab tab, int value, int count) {
     DipToolState *tools = &act->state->tools;
     tools->tab = tab;
@@ -248,7 +249,7 @@ static void next_map(const Act *act) {
 }
 
 // Doubles or halves the brightness if a map is chosen, or the gain if the difference is chosen.
-// Otherwise moves the wipe's divider by 5 %.
+// Otherwise moves the wipe's divider by 5 % of the picture's width.
 static void adjust(const Act *act) {
     enum { MAX_GAIN = 64 };
     DipToolState *tools = &act->state->tools;

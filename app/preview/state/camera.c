@@ -104,12 +104,12 @@ void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_
                       double up_deg) {
     const double *q = pose->orientation;
     double offset[3], seen[3];
-    multiply(q, (const double[4]){0, 0, 0, 1}, pose->orientation); // Normalises.
+    multiply(q, (const double[4]){0, 0, 0, 1}, pose->orientation); // Normalises the orientation.
     const double inverse[4] = {-q[0], -q[1], -q[2], q[3]};
     for (int i = 0; i < 3; ++i) {
         offset[i] = centre_world[i] - pose->position_world[i];
     }
-    rotate(inverse, offset, seen); // The centre in camera space stays the same.
+    rotate(inverse, offset, seen); // The turn must keep the centre's place in camera space.
     dip_camera_look(pose, right_deg, up_deg);
     rotate(pose->orientation, seen, offset);
     for (int i = 0; i < 3; ++i) {

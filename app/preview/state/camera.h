@@ -6,18 +6,18 @@
 
 #include <stdbool.h>
 
-// How far the user steers in each direction, -1..1.
+// How strongly the user steers in each direction, from -1 to 1.
 typedef struct DipCameraKeys {
     double right;   // Key D is 1, A is -1.
     double up;      // Key Q is 1, E is -1.
     double forward; // Key W is 1, S is -1.
-    bool turn;      // The camera turns instead of moving, because Shift is held.
+    bool turn;      // The camera turns instead of moving. Held keys set this while Shift is held.
 } DipCameraKeys;
 
-// Moves the camera along its own axes by speed_m_per_s * seconds, or turns the camera if `turn` is
-// set. Left and right turn the camera about the world's vertical axis. Forward and back turn the
-// camera about its right axis, and up and down about its line of sight. Returns whether `keys`
-// steers in any direction.
+// Moves the camera along its own axes, by `seconds` times speed_m_per_s for a direction of 1, or
+// turns the camera if keys->turn is set. Left and right turn the camera about the world's vertical
+// axis. Forward and back turn the camera about its right axis, and up and down about its line of
+// sight. Returns whether `keys` steers in any direction.
 bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_per_s,
                      double seconds);
 

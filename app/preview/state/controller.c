@@ -1,4 +1,5 @@
-// Turns buttons into keys and actions, and sticks and triggers into flight.
+// Turns the buttons of game controllers into keys and actions, and moves the camera by sticks and
+// triggers.
 #include "app/preview/state/controller.h"
 
 #include "app/preview/state/camera.h"
@@ -14,9 +15,9 @@ static const double trigger_dead_zone = 30.0 / 255.0;
 
 // --- buttons -----------------------------------------------------------------------------------
 
-// A button stands for a key or carries out an action. Buttons that move through the controls of the
-// panel stand for keys, because the control with the focus may take a key. Actions are carried out
-// whichever control has the focus.
+// What a button does: it stands for a key, or it carries out an action. Buttons that move through
+// the controls of the panel stand for keys, because the control with the focus may take a key.
+// Actions are carried out whichever control has the focus.
 typedef struct ButtonRow {
     int key; // A DipKeycode, or DIP_KEYCODE_NONE.
     unsigned modifiers;
@@ -41,8 +42,8 @@ static const ButtonRow button_rows[DIP_CONTROLLER_BUTTON_COUNT] = {
     [DIP_CONTROLLER_RIGHT] = {.key = DIP_KEYCODE_RIGHT},
 };
 
-// Carries out the button's action, or fills in the event of its key. Returns whether the button has
-// a key.
+// If the button stands for a key, fills in the key's event and returns true. Otherwise carries out
+// the button's action when the button goes down, and returns false.
 static bool press_button(DipPreviewState *state, const DipEvent *event, int64_t now_ns,
                          DipEvent *key) {
     const ButtonRow *row = &button_rows[event->controller_button];

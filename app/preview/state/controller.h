@@ -1,5 +1,5 @@
-// Lets game controllers act: a button does what a key or an action does, and sticks and triggers
-// fly the camera.
+// Lets game controllers act: a button does the same as a key or carries out an action, and sticks
+// and triggers fly the camera.
 #ifndef DIP_APP_PREVIEW_STATE_CONTROLLER_H
 #define DIP_APP_PREVIEW_STATE_CONTROLLER_H
 
@@ -12,7 +12,7 @@
 enum { DIP_MAX_CONTROLLERS = 4 };
 
 // The connected controllers whose sticks and triggers steer the camera. Of further controllers,
-// only the buttons act. Zero-initialise.
+// only the buttons act. Zero-initialise it.
 typedef struct DipControllers {
     struct {
         bool used;
@@ -26,8 +26,8 @@ bool dip_controllers_concern(const DipEvent *event);
 
 // Handles an event of a controller. Shows a notice when a controller is connected or disconnected.
 // Carries out the action of a button that was pressed. If the button stands for a key instead,
-// fills in the event of that key and returns true; the caller then handles the event as the
-// keyboard's.
+// fills in *key with the event of that key and returns true; the caller then handles *key as an
+// event of the keyboard.
 bool dip_controllers_handle(DipControllers *controllers, DipPreviewState *state,
                             const DipEvent *event, int64_t now_ns, DipEvent *key);
 

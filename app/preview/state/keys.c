@@ -1,23 +1,24 @@
-// Holds the table of keys, and carries out the action of a key.
+// Holds the table of keys, and carries out what a pressed key does.
 #include "app/preview/state/keys.h"
 
 #include "renderer/base/assert.h"
 
 #include <string.h>
 
-// A key that acts without Ctrl; Shift reverses its action. A second key, `other`, does the same.
+// A row for a key that acts without Ctrl; Shift reverses its action. A second key, `other`, does
+// the same.
 #define KEY(key, other, action, argument, label, text)                                             \
     { key, other, DIP_ACTION_##action, argument, false, false, false, label, text }
-// Keys that go on acting while they are held.
+// A row for a key without Ctrl that repeats its action while it is held.
 #define HELD(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, false, reverse, true, label, text }
-// CTRL and EDIT are keys that act with Ctrl. Of these two, only CTRL keys repeat their action while
-// they are held.
+// CTRL and EDIT make rows for keys that act with Ctrl. Only the keys of CTRL rows repeat their
+// action while they are held.
 #define CTRL(key, action, argument, reverse, label, text)                                          \
     { key, 0, DIP_ACTION_##action, argument, true, reverse, true, label, text }
 #define EDIT(key, edit, label, text)                                                               \
     { key, 0, DIP_ACTION_PATH_EDIT, DIP_PATH_EDIT_##edit, true, false, false, label, text }
-// Rows that only the help uses. In a terminal, the help shows a row unless its action needs a
+// A row that only the help uses. In a terminal, the help leaves out rows whose action needs a
 // window.
 #define HELP(action, label, text)        KEY(0, 0, action, 0, label, text)
 #define SETTING(key, other, NAME, label) KEY(key, other, SETTING, DIP_SETTING_##NAME, label, NULL)
@@ -116,7 +117,8 @@ static bool stands_for(const DipKeyRow *row, DipKeycode key) {
     return row->key != DIP_KEYCODE_NONE && (row->key == (int)key || row->other == (int)key);
 }
 
-// Carries out the action of the key's row. Returns whether the key has a row.
+// Carries out the action of the key's row. Ignores a repeated press if the row does not repeat.
+// Returns whether the key has a row.
 static bool press_row(DipPreviewState *state, const DipEvent *event, bool ctrl, int64_t now_ns) {
     for (int i = 0; i < dip_key_row_count; ++i) {
         const DipKeyRow *row = &dip_key_rows[i];
@@ -155,8 +157,8 @@ static bool press_with_modifier(DipPreviewState *state, const DipEvent *event, i
     return press_row(state, event, true, now_ns);
 }
 
-// Leaves all tools that show, and shows everything again if only the panes show, as Escape does.
-// Returns false if there was nothing to leave.
+// Switches the loupe, the map and the comparison off, and shows everything again if only the panes
+// show. Returns false if none of these was on.
 static bool leave_tool(DipPreviewState *state) {
     DipToolState *tools = &state->tools;
     const bool shows = tools->bare || tools->loupe || tools->map != DIP_MAP_NONE ||
@@ -167,9 +169,9 @@ static bool leave_tool(DipPreviewState *state) {
     return shows;
 }
 
-// Lets the user type words while the help shows in a window; the help then shows only rows that
-// contain them. The first Escape removes the words, and the second one closes the help. Returns
-// whether the key was used for this.
+// Lets the user type words while the help shows in a window; the help then lists only rows that
+// contain the words. Escape removes the words. Returns whether the key was used for this. Without
+// words, Escape is not used, and closes the help.
 static bool type_words(DipPreviewState *state, const DipEvent *event) {
     const size_t length = strlen(state->help_words);
     if (!state->help || state->in_terminal) {
@@ -200,8 +202,8 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     if (type_words(state, event)) {
         return true;
     }
-    // Each Escape goes one step: it closes the help and the cost table, then leaves all tools, then
-    // full screen, and finally the program.
+    // Each press of Escape does the first of these that it can: closes the help and the cost table,
+    // leaves all tools, leaves full screen, ends the program.
     if (event->key == DIP_KEYCODE_ESCAPE && (state->help || state->show_costs)) {
         state->help = state->show_costs = false;
         return true;

@@ -15,8 +15,8 @@ typedef struct DipKeyRow {
     bool ctrl;         // The key acts only while Ctrl is held.
     bool reverse;      // The action goes backwards, as with Shift.
     bool repeats;      // The action is repeated while the key is held.
-    const char *label; // The key's name in the help; NULL if the help leaves the row out.
-    const char *text;  // The help's text; NULL if the help shows the setting's title.
+    const char *label; // The keys' names in the help; NULL if the help leaves the row out.
+    const char *text;  // The help's text. NULL without a label, and for SETTING (its title shows).
 } DipKeyRow;
 
 extern const DipKeyRow dip_key_rows[];
@@ -25,17 +25,17 @@ extern const int dip_key_row_count;
 // Carries out what the key of a KEY_DOWN event does. Returns whether the preview uses this key.
 bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_ns);
 
-// The letters and modifiers that are held. They fly the camera. Zero-initialise.
+// The letter keys and modifiers that are held, with which the user flies the camera.
+// Zero-initialise.
 typedef struct DipHeldKeys {
-    bool letters[26]; // Which letters are held, 'a' first, by their positions on a US keyboard.
+    bool letters[26]; // Whether the key is held that has this letter on a US keyboard, 'a' first.
     unsigned modifiers;
 } DipHeldKeys;
 
 // Updates the held keys from a KEY_DOWN or KEY_UP event.
 void dip_keys_hold(DipHeldKeys *held, const DipEvent *event);
 
-// Returns the directions in which the held keys fly the camera. All are 0 while Ctrl, Alt or Super
-// is held.
+// Returns how the held keys fly the camera. All members are 0 while Ctrl, Alt or Super is held.
 DipCameraKeys dip_keys_camera(const DipHeldKeys *held);
 
 #endif

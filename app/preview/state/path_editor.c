@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The times from key to key that the user steps through.
+// The times from key to key among which the user chooses.
 static const int64_t periods_ns[] = {100000000,  250000000,  500000000,  1000000000, 1500000000,
                                      2000000000, 3000000000, 5000000000, 10000000000};
 
@@ -130,8 +130,8 @@ static bool take(DipPathEditor *editor, const DipCamPath *playing) {
     return say(editor, true, "Took the %zu keys of the path", editor->count);
 }
 
-// Changes the time from key to key to the next one in periods_ns. A path that was taken over may
-// have a time between two of these.
+// Changes the time from key to key to the next longer or shorter one in periods_ns. A path that was
+// taken over may have a time that lies between two of these.
 static bool change_period(DipPathEditor *editor, bool longer) {
     const int count = (int)DIP_ARRAY_COUNT(periods_ns);
     int64_t found_ns = editor->period_ns;

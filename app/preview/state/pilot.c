@@ -6,7 +6,7 @@
 
 enum { STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
 
-// A drag by the height of a pane turns the camera by these angles, about itself or in an orbit.
+// Angles by which a drag over a pane's height turns the camera: on the spot, and about a point.
 static const double look_deg = 90.0;
 static const double orbit_deg = 180.0;
 static const double zoom_per_step = 0.9;
@@ -14,7 +14,7 @@ static const double step_s = 0.25;
 
 static const double courtyard_speed_m_per_s = 3.0;
 static const double seconds_across_model = 4.0;
-static const double least_distance_m = 1.0; // Least distance to the centre of an orbit.
+static const double least_distance_m = 1.0; // To a point ahead that the camera orbits.
 
 double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
@@ -157,14 +157,14 @@ static bool move_by_mouse(DipFlight *flight, const DipSession *session, DipPose 
         dip_orbit_centre(session, pose, flight->centre_world);
         flight->knows_centre = true;
     }
-    // What lies between the camera and the centre seems to move with the pointer.
+    // In the picture, objects between the camera and the centre move with the pointer.
     dip_camera_orbit(pose, flight->centre_world, orbit_deg * flight->drag_right,
                      orbit_deg * flight->drag_up);
     dip_camera_zoom(pose, flight->centre_world, pow(zoom_per_step, flight->zoom_steps));
     return true;
 }
 
-// Carries out the steps that buttons have asked for. Returns whether there were any.
+// Carries out the steps that buttons have asked for. Returns whether the camera moved.
 static bool move_by_steps(const DipFlight *flight, DipPose *pose) {
     const DipCameraKeys right = {.right = 1.0};
     const DipCameraKeys forward = {.forward = 1.0};
@@ -192,8 +192,9 @@ static bool has_pose(const DipPose *pose) {
     return q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
 }
 
-// Lets the path editor move the camera. Stops the editor if the user moves the camera or the camera
-// is not free.
+// Lets the path editor move the camera, and tells the editor the camera's pose. First stops the
+// editor if the user moves the camera or the camera is not free. Returns whether the editor moved
+// the camera.
 static bool move_by_editor(DipPreviewState *state, bool moved, int64_t elapsed_ns, DipPose *pose) {
     if (!state->editor) {
         return false;

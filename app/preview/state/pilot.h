@@ -1,4 +1,5 @@
-// Flies the free camera: carries out the camera's actions, and moves it in each turn of the loop.
+// Flies the free camera: carries out actions that concern the camera, and moves the camera in each
+// turn of the loop.
 #ifndef DIP_APP_PREVIEW_STATE_PILOT_H
 #define DIP_APP_PREVIEW_STATE_PILOT_H
 
@@ -10,8 +11,8 @@
 // its path, only shows a notice.
 void dip_pilot_reset(DipPreviewState *state, int64_t now_ns);
 
-// Makes the camera free. If it is free already, lets dragging turn it about a point instead of
-// about itself, or the other way round.
+// Makes the camera free. If it is free already, switches between dragging that turns it about a
+// point and dragging that turns it on the spot.
 void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns);
 
 // Makes the free camera faster by `steps`; dip_flight_speed says what a step is.
@@ -37,20 +38,23 @@ void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 // flight->speed_steps counts double it.
 double dip_flight_speed(const DipFlight *flight);
 
-// Returns the speed in metres per second that suits what the session shows. If the user gave
-// models, the camera crosses them in four seconds, whatever their unit of length is.
+// Returns a speed in metres per second that suits the session's scene. If the user gave models, it
+// crosses the diagonal of the scene's bounding box in four seconds, whatever the models' unit of
+// length is; otherwise it is 3.
 double dip_flying_speed(const DipSession *session);
 
-// Returns whether dragging should orbit the scene: the user gave models to look at from all sides.
+// Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
+// at from all sides.
 bool dip_flight_should_orbit(const DipSession *session);
 
-// Writes the point that the camera orbits. It is the middle of the models that the user gave. In
-// other scenes it is the point of the line of sight that is nearest to the middle of the scene, so
-// that it lies in the middle of the picture.
+// Writes the point that the camera orbits. If the panes show models that the user gave, this is the
+// middle of the scene's bounding box. In other scenes it is a point on the line of sight, which
+// shows in the middle of the picture: the one that is nearest to the middle of the scene, but at
+// least 1 m ahead.
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
 
-// Resets the free camera's speed, and lets dragging orbit or turn the camera as suits the session's
-// scene.
+// Resets the free camera's speed, and decides by the session's scene whether dragging orbits. Call
+// it for a new session.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
 // What the loop gives to dip_pilot_turn.
@@ -58,13 +62,13 @@ typedef struct DipPilotTurn {
     const DipSession *session;
     DipCameraKeys keys;                // What the held keys ask for.
     const DipControllers *controllers; // NULL if there are none.
-    double speed_m_per_s;              // Speed of the free camera, not counting the wheel's steps.
+    double speed_m_per_s;              // Speed of the free camera at 0 steps (DipFlight).
     int64_t elapsed_ns;
 } DipPilotTurn;
 
-// Carries out what mouse, keys, controllers and the path editor have asked of the free camera since
-// the last turn. The path editor stops flying its path when the user moves the camera. Returns
-// whether something moved the camera.
+// Moves the free camera as mouse, keys, controllers and the path editor have asked since the last
+// turn. The path editor stops flying its path when the user moves the camera. Returns whether
+// something moved the camera.
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose);
 
 #endif

@@ -14,7 +14,7 @@ static bool quote(const char *value, char word[DIP_SCENE_WORDS_BYTES]) {
     size_t length = 0;
     word[length++] = '\'';
     for (; *value; ++value) {
-        if (length + 6 > DIP_SCENE_WORDS_BYTES) { // Room for an escaped quote, a quote and 0.
+        if (length + 6 > DIP_SCENE_WORDS_BYTES) { // Room for an escaped quote, a quote and the 0.
             return false;
         }
         if (*value == '\'') { // Ends the quotes, adds an escaped quote and opens them again.

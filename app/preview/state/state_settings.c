@@ -64,8 +64,8 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
     dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
 }
 
-// Shows a notice with the step that a setting has now. While the camera follows a path, switches to
-// the path that shows the setting best. A camera that is paused or free stays where it is.
+// Shows a notice with the new step of a setting. While the camera follows a path, switches to the
+// path that shows the setting best. A camera that is paused or free stays where it is.
 static void follow_setting(DipPreviewState *state, DipSetting setting, const char *step,
                            int64_t now_ns) {
     const int category = dip_preview_category_of(setting);
@@ -80,8 +80,9 @@ static void follow_setting(DipPreviewState *state, DipSetting setting, const cha
     ++state->scene_changes;
 }
 
-// Gives a setting a step. If a new number of samples does not fit the group size of adaptive AA,
-// resets the group size to its default. Returns whether the settings are valid.
+// Gives a setting a step. If the setting is AA and the new number of samples does not fit the group
+// size of adaptive AA, also resets the group size to its default. Returns whether the settings are
+// valid then.
 static bool take_step(DipQuality *quality, DipSetting setting, int step, DipError *err) {
     quality->step[setting] = (uint8_t)step;
     if (setting == DIP_SETTING_AA && !dip_quality_check(quality, NULL)) {
@@ -90,8 +91,8 @@ static bool take_step(DipQuality *quality, DipSetting setting, int step, DipErro
     return dip_quality_check(quality, err);
 }
 
-// Sets a setting to its next step, or with `reverse` the step before, that is valid with the other
-// settings. Returns false if no other step is valid.
+// Gives a setting the next step that is valid with the other settings or, with `reverse`, the valid
+// step before. Steps wrap around. Returns false if no other step is valid.
 static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     const DipSettingInfo *info = dip_setting_info(setting);
     DipQuality candidate;
@@ -107,8 +108,8 @@ static bool cycle(DipQuality *quality, DipSetting setting, bool reverse) {
     return false;
 }
 
-// Gives the panes new settings if they differ from the old ones. `step` is the name of the new step
-// of `setting`.
+// Gives the panes the settings `wanted` if these differ from the old ones. `step` is the name of
+// the new step of `setting`, for the notice.
 static void take_settings(DipPreviewState *state, const DipQuality wanted[DIP_PANE_COUNT],
                           DipSetting setting, const char *step, int64_t now_ns) {
     if (memcmp(wanted, state->quality, sizeof state->quality) != 0) {
@@ -296,14 +297,14 @@ void dip_state_take_advice(DipPreviewState *state, bool other_budget, int64_t no
         dip_preview_notice(state, now_ns, "%s", text);
     }
     state->notice_end_ns =
-        now_ns + 2 * dip_state_notice_ns; // This text is longer than other notices.
+        now_ns + 2 * dip_state_notice_ns; // This text takes longer to read than other notices.
 }
 
 // --- texts ---------------------------------------------------------------------------------------
 
-// The short forms of settings, in which %s stands for the step. A setting that may be on or off has
-// a short form without a step. If it is off, "no" precedes the short form; a step other than on and
-// off follows it.
+// The short forms of settings, in which %s stands for the step. The short form of a setting that
+// may be off has no %s. If the setting is off, "no" precedes this short form; a step other than
+// "on" and "off" follows it.
 static const char *const brief_forms[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AA] = "AA %sx",
     [DIP_SETTING_TAA] = "temporal AA",

@@ -20,15 +20,17 @@ typedef enum DipTab {
 // How the window compares the pictures of the two panes.
 typedef enum DipComparison {
     DIP_COMPARE_SIDE_BY_SIDE,
-    DIP_COMPARE_WIPE,       // One picture: the current one left of a divider, the requested right.
-    DIP_COMPARE_BLINK,      // One pane's picture; a key or a timer switches to the other pane's.
+    DIP_COMPARE_WIPE,  // One picture: the current pane's left of a divider, the requested pane's
+                       // right of it.
+    DIP_COMPARE_BLINK, // One pane's picture; a key or a timer switches to the other pane's.
     DIP_COMPARE_DIFFERENCE, // Absolute difference of the two pictures, times a gain.
-    DIP_COMPARE_ALONE,      // One pane alone, as large as both.
-    DIP_COMPARE_TRUTH,      // The converged picture (the truth) in the current pane's place.
+    DIP_COMPARE_ALONE, // One pane alone, in the area of both: the requested pane, unless the keys
+                       // change only the current one.
+    DIP_COMPARE_TRUTH, // The converged picture (the truth) in the current pane's place.
     DIP_COMPARISON_COUNT
 } DipComparison;
 
-// What is shown over each pane's picture in place of its colours.
+// Maps: pictures that show over the panes in place of the panes' own pictures.
 typedef enum DipMap {
     DIP_MAP_NONE,
     DIP_MAP_FLIP,      // FLIP error of each pixel against the converged picture.
@@ -42,26 +44,30 @@ typedef enum DipMap {
 
 enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
 
-// What the user has chosen. Plain data; part of the preview's state.
+// The choices of the user. Plain data; part of the preview's state.
 typedef struct DipToolState {
     DipTab tab;
     bool open;        // The dock is open and shows `tab`.
     bool bare;        // The window shows nothing but the panes.
     double ui_scale;  // 0.75..4; multiplies the display's scale.
-    bool fixed_scale; // The user gave a scale, so that the window's size does not change it.
-    bool loupe;       // The loupe is in use. It follows the pointer or shows the pinned pixel.
-    int zoom;         // 2, 4, 8, 16 or 32.
-    bool pinned;
-    int x; // The loupe's pixel, in pixels of a pane's picture; below 0 stands for the middle.
+    bool fixed_scale; // --ui-scale is given, so the window's height does not change the scale
+                      // (dip_layout_scale).
+    bool loupe;       // The user has switched the loupe on.
+    int zoom;         // Width of an enlarged pixel: 2, 4, 8, 16 or 32 pixels of the window.
+    bool pinned;      // The loupe stays at its pixel instead of following the pointer.
+    int x; // The pixel at which the loupe looks, in a pane's picture; below 0 means the middle.
     int y;
     DipComparison comparison;
-    double divider;     // WIPE: 0 is the pane's left edge, 1 its right edge.
-    int gain;           // DIFFERENCE: 1, 2, 4, ... 64.
-    bool against_truth; // WIPE, BLINK, DIFFERENCE: the truth replaces the current picture.
-    bool blinked;       // BLINK: shows the requested pane.
-    bool blinks;        // BLINK: changes between the panes by itself, twice a second.
+    double divider; // WIPE: where the divider stands, from 0 (the picture's left edge) to 1 (its
+                    // right edge).
+    int gain;       // DIFFERENCE: factor of the differences: 1, 2, 4, ... 64.
+    bool against_truth; // WIPE, BLINK, DIFFERENCE: the truth replaces the current pane's picture.
+    bool blinked; // BLINK: shows the requested pane instead of the current one. The timer reverses
+                  // this.
+    bool blinks;  // BLINK: a timer switches between the panes, twice a second.
     DipMap map;
-    double brightness; // Divides the end of a map's colour scale. Below 1 counts as 1.
+    double brightness; // The value at the end of a map's colour scale is divided by this. A value
+                       // below 1 counts as 1.
 } DipToolState;
 
 #endif
