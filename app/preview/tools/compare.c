@@ -1,4 +1,4 @@
-// Computes where the pictures of a comparison show, and the difference of both panes' pictures.
+// Computes where the pictures of a comparison show, and the difference of two pictures.
 #include "app/preview/tools/compare.h"
 
 #include "app/preview/tools/loupe.h"
@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int64_t blink_ns = 500000000; // How long BLINK shows one pane before it changes to the
-                                           // other.
+static const int64_t blink_ns = 500000000; // How long the timer of BLINK shows each pane.
 enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
 
 const char *dip_compare_name(DipComparison comparison) {
@@ -112,7 +111,7 @@ int dip_compare_divider_column(double divider, int width) {
     return (int)(bounded * width + 0.5);
 }
 
-// Returns the first column of the window right of the divider.
+// Returns the x coordinate in the window of the first column right of the divider.
 static int divider_x(const DipWindow *window, DipRect shown) {
     const int width = window->frames[DIP_PANE_CURRENT].width;
     const int column = dip_compare_divider_column(window->state->tools.divider, width);

@@ -1,5 +1,5 @@
 // Compares both panes' pictures. Says where each picture shows in a comparison (DipComparison), and
-// computes the difference of both.
+// computes the difference of two pictures.
 #ifndef DIP_APP_PREVIEW_TOOLS_COMPARE_H
 #define DIP_APP_PREVIEW_TOOLS_COMPARE_H
 
@@ -13,7 +13,7 @@ enum { DIP_COMPARE_MAX_GAIN = 64 };
 // Returns whether a comparison shows one picture in place of both panes.
 bool dip_compare_is_one_picture(DipComparison comparison);
 
-// Returns whether a comparison has the converged picture in place of the current pane's.
+// Returns whether the chosen comparison needs the converged picture in place of the current pane's.
 bool dip_compare_wants_truth(const DipToolState *tools);
 
 // Returns whether the converged picture shows in place of the current pane's: the comparison wants
@@ -38,28 +38,28 @@ DipRect dip_compare_fit(DipRect area, int width, int height);
 // it. In a wipe, this is the whole picture, of which the divider hides a part.
 DipRect dip_compare_shown(const DipWindow *window, int pane);
 
-// Returns the part of dip_compare_shown that the user sees; empty if the comparison hides the pane.
-// The pane's label belongs in the top left corner of this part.
+// Returns the part of the rectangle of dip_compare_shown that the user sees. This part is empty if
+// the comparison hides the pane. The pane's label belongs in the top left corner of this part.
 DipRect dip_compare_visible(const DipWindow *window, int pane);
 
 // Returns whether a pane's picture shows and needs its label. A difference has a label of its own.
 bool dip_compare_has_label(const DipWindow *window, int pane);
 
-// Finds the pane and the pixel that the window shows at window_x, window_y. Returns false if there
-// is none.
+// Finds the pane and the pixel of its picture that the window shows at window_x, window_y. Returns
+// false if no pane shows there.
 bool dip_compare_pixel_at(const DipWindow *window, int window_x, int window_y, int *pane, int *x,
                           int *y);
 
 // Returns the number of columns of a picture of the given width that lie left of the divider.
 int dip_compare_divider_column(double divider, int width);
 
-// Differences of two pictures in 8-bit sRGB codes.
+// What dip_compare_difference finds, in 8-bit sRGB codes.
 typedef struct DipDifference {
     int64_t pixels;    // Number of pixels of a picture.
     int64_t differing; // Number of pixels in which a channel differs.
     int greatest;      // The greatest difference of a channel, 0..255.
-    int x;             // Column of the first pixel, row by row, with the greatest difference.
-    int y;             // Row of that pixel.
+    int x; // Column of the first pixel with the greatest difference, in the order of rows.
+    int y; // Row of that pixel.
 } DipDifference;
 
 // Computes |a - b| * gain for each channel, at most 255, with alpha 255, into `out`, whose rows are
@@ -72,15 +72,16 @@ DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int
 // Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
 void dip_compare_divide(DipToolState *tools, double at);
 
-// Carries out steps of the slider in the comparisons' tab; steps below 0 go back. A step moves the
-// divider by 1/64 of the picture, or changes the gain by a factor of 2. Returns false if the
-// comparison has neither divider nor gain.
+// In a wipe, moves the divider by `steps` times 1/64 of the picture's width. In a difference,
+// doubles the gain `steps` times; steps below 0 halve it. Returns false if the chosen comparison
+// has neither divider nor gain.
 bool dip_compare_adjust(DipToolState *tools, int steps);
 
 // Returns the pane that the comparison BLINK or ALONE shows at the time `now_ns`.
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns);
 
-// Returns when the window must be drawn again because BLINK changes its picture, or INT64_MAX.
+// Returns when the window must be drawn again because the timer of BLINK switches the picture.
+// Returns INT64_MAX if this timer is off.
 int64_t dip_compare_wakes_ns(const DipToolState *tools, int64_t now_ns);
 
 const char *dip_compare_name(DipComparison comparison); // "Side by side"
@@ -98,9 +99,10 @@ typedef struct DipComparer {
     uint64_t version; // Version of `difference`.
 } DipComparer;
 
-// Returns the difference of the panes' pictures, and computes it if a picture or the gain has
-// changed. Returns NULL if memory runs out or the sizes differ. The picture and its version are
-// valid until the next call.
+// Returns the difference of the two pictures that the comparison shows (dip_compare_picture), and
+// computes it if a picture or the gain has changed. Returns NULL if memory runs out or the sizes
+// differ. Sets *picture and *version to the difference as a picture, which is valid until the next
+// call.
 const DipDifference *dip_compare_make_difference(DipComparer *compare, const DipWindow *window,
                                                  DipPixels *picture, uint64_t *version);
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 enum {
-    TEXT = 12,    // Size of letters.
-    HANDLE = 18,  // Radius of the divider's handle.
+    TEXT = 12,    // Letter size at scale 1.
+    HANDLE = 18,  // Radius of the divider's handle at scale 1.
     ID_LINE = 64, // Id of the divider, greater than all ids in the comparisons' tab.
 };
 

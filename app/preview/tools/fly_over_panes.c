@@ -1,4 +1,4 @@
-// Turns what the mouse does over the panes into moves that the free camera makes in the loop's next
+// Turns drags and the wheel over the panes into moves that the free camera makes in the loop's next
 // turn.
 #include "app/preview/state/pilot.h"
 #include "app/preview/tools/window.h"

@@ -1,9 +1,9 @@
-// Says where the panes and the dock lie in a window.
+// Computes where the panes and the dock lie in a window.
 #include "app/preview/tools/layout.h"
 
 #include "app/ui/style.h"
 
-enum { PLAIN_HEIGHT = 1080 }; // Window height, in pixels, for which scale 1 is made.
+enum { PLAIN_HEIGHT = 1080 }; // Height of a window, in pixels, that suits scale 1.
 enum { BAR_HEIGHT = 32, BODY_HEIGHT = 208, LEAST_PANE_HEIGHT = 130, LEAST_DOCK_WIDTH = 640 };
 
 int dip_layout_dock_height(void) {
@@ -11,7 +11,7 @@ int dip_layout_dock_height(void) {
 }
 
 double dip_layout_scale(double display_scale, const DipToolState *tools, int height) {
-    const int quarters = 4 * height / PLAIN_HEIGHT; // Rounded down.
+    const int quarters = 4 * height / PLAIN_HEIGHT; // Height / 1080 in quarters, rounded down.
     const double grown = tools->fixed_scale || quarters < 4 ? 1.0 : 0.25 * quarters;
     return (grown > display_scale ? grown : display_scale) * tools->ui_scale;
 }

@@ -18,9 +18,11 @@ typedef struct DipLayout {
     int width;
     int height;
     double scale;
-    DipRect panes[DIP_PANE_COUNT]; // Where the pictures show. Both have the same size.
+    DipRect panes[DIP_PANE_COUNT]; // Where the panes' pictures show. Both rectangles have the same
+                                   // size.
     DipDockSide side;
-    DipRect bar;  // One row with the tabs and the time line. A folded dock keeps its bar.
+    DipRect bar;  // One row with the tabs and the time line, which a folded dock also has. Empty if
+                  // the window is bare.
     DipRect body; // The chosen tab's contents; empty while the dock is folded.
 } DipLayout;
 
@@ -34,7 +36,8 @@ double dip_layout_scale(double display_scale, const DipToolState *tools, int hei
 // shows nothing but the panes.
 DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
 
-// Finds a size of the window in which each pane has the given size in pixels.
+// Finds a size of the window in which each pane has the given size in pixels. The other arguments
+// are those of dip_layout_make.
 void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
                             int *width, int *height);
 

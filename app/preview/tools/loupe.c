@@ -32,8 +32,8 @@ DipLoupeCrop dip_loupe_crop(int width, int height, int x, int y, int zoom, DipRe
     return crop;
 }
 
-// A row of `from` pixels is scaled to `to` pixels, as dip_canvas_copy does. Returns the index of
-// the original pixel that the scaled row's pixel i shows.
+// A row of `from` pixels is scaled to `to` pixels as by dip_canvas_copy. Returns the index of the
+// original pixel that the scaled row's pixel i shows.
 static int scaled(int i, int from, int to) {
     return (int)((2 * (int64_t)i + 1) * from / (2 * (int64_t)to));
 }

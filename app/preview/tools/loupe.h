@@ -1,9 +1,9 @@
-// Finds the pixels that the loupe shows enlarged and where the panes mark them, reads the samples
-// of these pixels, and draws the loupe's pictures.
+// Implements the loupe: finds the pixels that it shows enlarged and where the panes mark these
+// pixels, reads the pixels' samples, and draws the loupe's pictures.
 //
-// The loupe looks at one pixel of both panes. Below each pane, the dock shows the pixels around it,
-// each as a square of `zoom` x `zoom` pixels of the window (the crop), and a larger square with the
-// samples of the looked-at pixel (the box).
+// The loupe looks at one pixel of both panes. Below each pane, the dock shows the crop, which has
+// the pixels around the looked-at pixel, each as a square of `zoom` x `zoom` pixels of the window,
+// and the box, a larger square with the samples of the looked-at pixel.
 #ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
@@ -16,14 +16,14 @@
 
 // --- arithmetic --------------------------------------------------------------------------------
 
-// The part of a picture that the loupe shows. The looked-at pixel lies in the middle. Beyond the
-// picture's edges, the crop is empty.
+// The crop: the part of a picture that the loupe shows. The looked-at pixel lies in the middle.
+// Beyond the picture's edges, the crop shows no pixels.
 typedef struct DipLoupeCrop {
     DipRect source; // Pixels of the picture that show; empty if the area has no room for one
                     // enlarged pixel.
     DipRect shown;  // Where `source` shows, in pixels of the window.
-    DipRect pixel;  // Where the looked-at pixel shows.
-    DipRect frame;  // Where all pixels would show if the picture had no end.
+    DipRect pixel;  // Where the looked-at pixel shows, in pixels of the window.
+    DipRect frame;  // Where the whole crop lies, with its part beyond the picture's edges.
     int zoom;
 } DipLoupeCrop;
 
@@ -37,31 +37,32 @@ DipLoupeCrop dip_loupe_crop(int width, int height, int x, int y, int zoom, DipRe
 bool dip_loupe_pixel_at(DipRect shown, int width, int height, int window_x, int window_y, int *x,
                         int *y);
 
-// Returns the rectangle of the window that shows the given pixels of a picture scaled to `shown`.
-// If the picture is scaled down, the rectangle may be empty.
+// Returns the rectangle of the window that shows the pixels `source` of a picture, if the picture
+// is scaled to the rectangle `shown`. If the picture is scaled down, the rectangle may be empty.
 DipRect dip_loupe_mark(DipRect shown, int width, int height, DipRect source);
 
-// Changes the zoom by factors of 2, within its range.
+// Doubles the zoom `steps` times, or halves it for steps below 0, within its range.
 void dip_loupe_zoom(DipToolState *tools, int steps);
 
 // Pins the loupe, and moves it by whole pixels within a picture of width x height pixels.
 void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height);
 
-// Keeps the loupe's pixel within pictures of a size. A pixel below 0 becomes the picture's middle.
+// Keeps the looked-at pixel within pictures of width x height pixels. A pixel below 0 becomes the
+// picture's middle.
 void dip_loupe_keep_inside(DipToolState *tools, int width, int height);
 
-// Returns whether the loupe looks at the panes: it is on, or its tab shows.
+// Returns whether the loupe is in use: the user has switched it on, or its tab is open.
 bool dip_loupe_is_on(const DipToolState *tools);
 
 // How the samples of a pixel are divided among surface patches (readback.h).
 typedef struct DipSampleCount {
     int samples; // Number of samples.
     int front;   // Number of samples that show the patch nearest to the eye.
-    int patches; // Number of distinct patches. The background counts as one.
+    int patches; // Number of distinct patches. The background counts as a patch.
     int colours; // Number of distinct colours. Samples that were shaded together have one colour.
 } DipSampleCount;
 
-// Counts the samples of a pixel. samples: `count` entries of a readback.
+// Counts the samples of a pixel. samples: the pixel's `count` samples from a readback (readback.h).
 DipSampleCount dip_loupe_count(const DipSampleValue *samples, int count);
 
 // Returns whether a sample shows the patch that is nearest to the eye.
@@ -69,15 +70,15 @@ bool dip_loupe_is_front(const DipSampleValue *samples, int count, int sample);
 
 // --- memory ------------------------------------------------------------------------------------
 
-// A picture that is kept until what it shows changes.
+// A picture that is kept until what was drawn into it changes.
 typedef struct DipKeptPicture {
     DipCanvas canvas;
     bool valid;
     uint64_t version;
 } DipKeptPicture;
 
-// The keys say what the pictures of a pane's crop and box were drawn from. Keys are compared byte
-// by byte, so a key is set to 0 before its members are set.
+// DipCropKey and DipBoxKey say from what the pictures of a pane's crop and box were drawn. Keys are
+// compared byte by byte, so a key is set to 0 before its members are set.
 typedef struct DipCropKey {
     uint64_t frame_version;
     unsigned generation; // DipLoupe.generation when the crop was drawn.
@@ -95,7 +96,7 @@ typedef struct DipBoxKey {
 typedef struct DipPaneSamples {
     DipSampleValue *samples; // Owned.
     size_t capacity;         // Number of entries for which `samples` has room.
-    bool tried;              // Reading has been tried, for `version` and `region`.
+    bool tried;              // Reading the samples has been tried for `version` and `region`.
     bool known;              // Reading succeeded.
     uint64_t version;        // Version of the pane's picture.
     DipTargetRegion region;
@@ -111,7 +112,7 @@ typedef struct DipLoupe {
     DipSrgbEncodeTable encode;
     DipTargetRegion wanted;
     bool is_wanted;
-    uint64_t frame_index; // Number of the panes' newest frame.
+    uint64_t frame_index; // Index of the panes' newest frame, as in DipToolsInput.
     unsigned generation;  // Grows whenever reading samples is tried.
     uint64_t version;     // Version of the loupe's newest picture (a crop or a box).
     DipPaneSamples panes[DIP_PANE_COUNT];
@@ -120,11 +121,12 @@ typedef struct DipLoupe {
 void dip_loupe_free(DipLoupe *loupe);
 
 // Tells the loupe that the crops and boxes need the samples of the pixels in a region. The loupe's
-// tab calls it while the window is drawn.
+// tab calls this function while the window is drawn.
 void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region);
 
-// Reads the wanted samples if the panes' pictures stand still and the samples are not known yet.
-// Returns whether new samples are known. After a failure, the samples stay unknown.
+// Reads the wanted samples of both panes if the loupe is on, the pictures are still, and reading
+// was not tried for these pictures yet. Returns whether new samples are known. After a failure, the
+// samples stay unknown.
 bool dip_loupe_update(DipLoupe *loupe, const DipToolsInput *input);
 
 // Returns the samples of a pane's pixel, and sets *pattern to their sample pattern. Returns NULL if
@@ -132,7 +134,7 @@ bool dip_loupe_update(DipLoupe *loupe, const DipToolsInput *input);
 const DipSampleValue *dip_loupe_samples(const DipLoupe *loupe, int pane, uint64_t version, int x,
                                         int y, const DipSamplePattern **pattern);
 
-// Returns the sample pattern that the newest frame has with a pane's settings.
+// Returns the sample pattern with which a pane with these settings draws the newest frame.
 const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQuality *quality);
 
 // Return a sample's colour, and the linear light (0 to 1) of a code of 8-bit sRGB.
@@ -148,18 +150,18 @@ typedef struct DipCropContent {
     DipLoupeCrop crop;
 } DipCropContent;
 
-// Draws the enlarged pixels of a pane. From a zoom of 16 on, marks the samples of pixels that show
-// several patches. *picture has the size of crop.frame and is valid until the next call for the
-// pane. *version lies in a range that no frame uses. Returns false if memory runs out.
+// Draws the enlarged pixels of a pane. From a zoom of 16 on, marks the known samples of pixels that
+// show several patches. *picture has the size of crop.frame and is valid until the next call for
+// the pane. *version lies in a range that no frame uses. Returns false if memory runs out.
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version);
 
-// One pixel as a square with its samples.
+// What the box shows: one pixel as a square with its samples.
 typedef struct DipBoxContent {
     DipColour pixel;
     const DipSamplePattern *pattern;
     const DipSampleValue *samples; // pattern->count entries, or NULL if they are not known.
-    int side;                      // Width and height of the picture, in pixels of the window.
+    int side;                      // Width and height of the box, in pixels of the window.
 } DipBoxContent;
 
 // Draws the box: the pixel's colour, a grid, and a disc with the sample's colour at each sample's

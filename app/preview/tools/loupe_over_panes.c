@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { TINY = 10 }; // Size of letters.
+enum { TINY = 10 }; // Letter size at scale 1.
 
 // Outlines the part of a pane that the loupe shows enlarged. Assumes that the crop has its usual
 // size, 368 x 176 pixels at scale 1.

@@ -1,4 +1,5 @@
-// Draws the loupe's pictures: magnified pixels, and one pixel with its samples.
+// Draws the loupe's pictures (loupe.h): the crop with enlarged pixels, and the box with the samples
+// of one pixel.
 #include "app/preview/tools/loupe.h"
 #include "app/ui/style.h"
 
@@ -19,8 +20,8 @@ static DipPixels part_of(const DipPixels *picture, DipRect rect) {
     return (DipPixels){picture->rgba8 + offset, picture->stride_bytes, rect.width, rect.height};
 }
 
-// Marks a sample of a pixel whose square has its top left corner at x, y: a core with a border. If
-// there is room, the core has the sample's colour.
+// Marks a sample of a pixel whose square has its top left corner at x, y. The mark is a dark square
+// with a white border; if it is large enough, it has the sample's colour instead of dark.
 static void mark_sample(const DipLoupe *loupe, DipCanvas *canvas, int x, int y, int zoom,
                         const DipSamplePattern *pattern, int s, const DipSampleValue *sample) {
     const int core = zoom / 8;
@@ -117,7 +118,8 @@ static double coverage(double edge, double distance) {
     return inside <= 0.0 ? 0.0 : inside >= 1.0 ? 1.0 : inside;
 }
 
-// Draws a disc, or a ring if `inner` is above 0. dashes: number of gaps in the ring, or 0.
+// Draws a disc with the radius `outer`, or a ring if the inner radius `inner` is above 0. dashes:
+// number of gaps in the ring, or 0.
 static void draw_disc(DipCanvas *canvas, int x, int y, double outer, double inner, int dashes,
                       DipColour colour) {
     uint8_t mask[MASK_SIDE * MASK_SIDE];

@@ -1,8 +1,8 @@
-// Computes the palette "cividis", which people with and without colour blindness see alike. It is
-// by J. R. Nuñez, C. R. Anderton and R. S. Renslow ("Optimizing colormaps with consideration for
-// color vision deficiency to enable accurate interpretation of scientific data", 2018). The table
-// below holds every 17th of the 256 colours that Matplotlib publishes. Colours between them are
-// interpolated linearly.
+// Computes the palette "cividis", which people with and without colour blindness see alike. The
+// palette is by J. R. Nuñez, C. R. Anderton and R. S. Renslow ("Optimizing colormaps with
+// consideration for color vision deficiency to enable accurate interpretation of scientific data",
+// 2018). The table below holds every 17th of the 256 colours that Matplotlib publishes. Colours
+// between them are interpolated linearly.
 #include "app/preview/tools/map_colours.h"
 
 #include <math.h>

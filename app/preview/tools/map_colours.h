@@ -1,5 +1,5 @@
-// Computes the colours of the maps of work, rounds the ends of the maps' scales, and formats
-// values.
+// Computes the colours of the maps of work (maps.h), rounds the ends of the maps' scales, and
+// formats the maps' values.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 #define DIP_APP_PREVIEW_TOOLS_MAP_COLOURS_H
 
@@ -12,7 +12,8 @@ enum { DIP_MAP_COLOURS = 256 };
 // Values outside 0..1 are clamped. Thread-safe.
 void dip_cividis(float value, uint8_t rgb[3]);
 
-// Returns the index of a value's colour among DIP_MAP_COLOURS colours for values from 0 to `end`.
+// Returns the index of a value's colour among DIP_MAP_COLOURS colours, which stand for the values
+// from 0 to `end`. The value must not be negative; values above `end` get the last colour.
 static inline int dip_map_colour_index(float value, float end) {
     const float index = value / end * (DIP_MAP_COLOURS - 1) + 0.5f;
     return index < (float)DIP_MAP_COLOURS ? (int)index : DIP_MAP_COLOURS - 1;

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Share of the map's colour in a map of work, in 1/256. The rest is the pane's picture in grey.
+// Share of the value's colour in each pixel of a map of work, in 1/256. The rest is the pane's
+// picture in grey.
 enum { COLOUR_SHARE = 174 };
 
 static void put(uint8_t *to, const uint8_t rgb[3]) {
@@ -39,7 +40,7 @@ static void draw_flip(DipMapPicture *picture, const float *flip) {
     }
 }
 
-// Finds the colour of each tile of a row of tiles.
+// Finds the colour of each tile in row `row` of the tiles.
 static void colour_row(const DipMapPicture *picture, const DipMapWork *work, int row,
                        uint8_t (*colours)[3]) {
     for (int column = 0; column < work->across; column++) {
@@ -48,7 +49,7 @@ static void colour_row(const DipMapPicture *picture, const DipMapWork *work, int
     }
 }
 
-// Colours each tile over the grey picture, with a dark line at its left and upper edge.
+// Colours each tile over the grey picture, with a dark line at the tile's left and upper edge.
 static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
     uint8_t colours[DIP_MAX_TARGET_SIZE / DIP_TARGET_TILE][3];
     for (int y = 0; y < picture->height; y++) {
@@ -172,7 +173,7 @@ static const char *flip_status(const DipMaps *maps, int pane, char *text, size_t
     if (reading->result.last) {
         return "";
     }
-    // The truth is the mean of two halves with equal numbers of samples.
+    // The finest truth is the mean of two halves with DIP_TRUTH_SAMPLES samples each.
     snprintf(text, size_bytes, "Measuring: %d of %d samples per pixel.", reading->result.samples,
              2 * DIP_TRUTH_SAMPLES);
     return text;

@@ -1,4 +1,4 @@
-// Measures the work of the panes' frames with a renderer of the maps' own, and keeps the newest
+// Measures the work of the panes' frames with a painter of the maps' own, and keeps the newest
 // errors from the error thread.
 #include "app/preview/tools/maps.h"
 
@@ -93,7 +93,8 @@ static double median(const double *values, int count) {
 // replace the earlier ones, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
     if (!frame->tiles.records || (!work->records && !make_arrays(work, frame))) {
-        return false; // With a render scale, tiles are not recorded. Otherwise, memory ran out.
+        return false; // Frames with a render scale have no records of tiles. Otherwise, memory ran
+                      // out.
     }
     const int tiles = work->across * work->down;
     const int draw = work->draws++;
@@ -126,7 +127,7 @@ static bool keep_mips(DipMapWork *work, const DipFrame *frame) {
 // Forgets all measurements if the panes no longer show the frames that were measured.
 static void follow_frames(DipMaps *maps, const DipToolsInput *input) {
     DipMapKey key;
-    memset(&key, 0, sizeof key); // memcmp compares the padding, too.
+    memset(&key, 0, sizeof key); // Clears the padding, which memcmp compares, too.
     key.pose = *input->pose;
     key.play_ns = input->play_ns;
     key.scene = input->session->scene;
@@ -136,7 +137,8 @@ static void follow_frames(DipMaps *maps, const DipToolsInput *input) {
     key.copied = input->copied;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         const DipQuality quality = dip_painter_quality(input->session->renderers[p]);
-        // Temporal antialiasing changes the picture from frame to frame.
+        // Temporal antialiasing changes the picture from frame to frame, so the picture's version
+        // does not count.
         const bool steady = quality.step[DIP_SETTING_TAA] == 0;
         memcpy(&key.quality[p], &quality, sizeof quality);
         key.versions[p] = steady ? input->versions[p] : 0;
@@ -196,8 +198,8 @@ static bool draw(DipMaps *maps, const DipToolsInput *input, int pane) {
                                         : add_draw(&maps->panes[pane], &frame);
 }
 
-// Returns how often a pane must still be drawn to have `wanted_draws` draws for the wanted map; 0
-// or less if it has them or needs none. The map of mip levels needs one draw.
+// Returns how many draws of a pane are missing until it has `wanted_draws` draws for the wanted
+// map; 0 or less if none is missing. The map of mip levels always needs one draw.
 static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
     const DipMapWork *work = &maps->panes[pane];
     if (pane == DIP_PANE_REQUESTED && maps->key.copied) {
@@ -207,7 +209,7 @@ static int draws_left(const DipMaps *maps, int pane, int wanted_draws) {
         return work->mips ? 0 : 1;
     }
     if (maps->key.quality[pane].step[DIP_SETTING_SCALE] != DIP_SCALE_1) {
-        return 0; // With a render scale, the tiles that are drawn are not those of the frame.
+        return 0; // With a render scale, the tiles that are drawn are not tiles of the frame.
     }
     return wanted_draws - work->draws;
 }

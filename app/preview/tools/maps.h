@@ -1,9 +1,9 @@
 // Makes the maps: pictures over each pane that show where its error lies and where its work goes.
 //
-// The FLIP map comes from the thread that measures errors. For the other maps, a renderer of the
-// maps' own draws each pane's frame again while camera and scene rest: with a record of its tiles,
-// or in mip colours.
-// The panes' own frames are drawn as always and take no more time.
+// The FLIP map comes from the thread that measures errors (error_thread.h). For the other maps, the
+// maps have a painter of their own, which draws each pane's frame again while camera and scene
+// rest. It records the tiles, or draws in mip colours. The panes' own frames are drawn as always
+// and take no more time.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
 
@@ -13,12 +13,12 @@
 #include "app/preview/tools/tools_input.h"
 #include "app/ui/pixels.h"
 
-// How often a frame is drawn for DIP_MAP_TIME. A tile's time is the median. Any other map needs
-// at most one draw.
+// How often a frame is drawn for DIP_MAP_TIME, which shows the median time of each tile. Any other
+// map needs at most one draw.
 enum { DIP_MAP_DRAWS = 15 };
 
-// What was measured of a pane's frame. The arrays are owned, NULL until the frame has been drawn
-// for them, and valid until the next dip_maps_update.
+// What was measured of a pane's frame. The maps own the arrays, which are NULL until they are
+// filled and valid until the next dip_maps_update.
 typedef struct DipMapWork {
     // Number of draws with records so far, 0..DIP_MAP_DRAWS. The draw for `mips` does not count.
     int draws;
@@ -26,13 +26,13 @@ typedef struct DipMapWork {
     int height;             // Height of the frame, in pixels.
     int across;             // Number of tiles from left to right.
     int down;               // Number of tiles from top to bottom.
-    DipTileRecord *records; // Counters of each tile; the times are those of one draw.
+    DipTileRecord *records; // Counters and times of each tile in the last draw.
     double *draws_ms;       // Times of the draws: DIP_MAP_DRAWS values for each tile.
     double *ms;             // Median time of each tile, on the worker that drew it.
     uint8_t *mixed;         // Copy of DipFrameTiles.mixed: the pixels whose samples differ.
-    uint8_t *mips;          // The frame in mip colours, rows packed. One draw is enough for it.
-    double geometry_ms;     // Time that one draw takes for geometry, before the tiles.
-    double mirrored_ms;     // Time that one draw takes for the mirrored scene in a reflection.
+    uint8_t *mips;          // The frame in mip colours, rows packed.
+    double geometry_ms;     // Time that the last draw took for geometry, before the tiles.
+    double mirrored_ms;     // Time that the last draw took for the mirrored scene in a reflection.
 } DipMapWork;
 
 typedef enum DipMapOver {
@@ -58,7 +58,7 @@ typedef struct DipMapKey {
     uint64_t versions[DIP_PANE_COUNT];
     int width;
     int height;
-    bool copied; // Both panes show one frame, which is measured once.
+    bool copied; // Both panes show one frame, which is measured only once.
 } DipMapKey;
 
 // A map's picture, and what it was made from.
@@ -67,7 +67,7 @@ typedef struct DipMapPicture {
     size_t pixels;
     DipMap map;
     double end;
-    uint64_t source; // Version of the values that the map shows.
+    uint64_t source; // Version of the map's values, which are errors or measured work.
     uint64_t frame_version;
     int width;
     int height;
@@ -78,10 +78,10 @@ typedef struct DipMapPicture {
 // The memory of the maps; zero-initialise. While the window is drawn, the maps' tab sets `wanted`.
 // The tab reads `reading` and `errors`, and keeps its choices in `view`.
 typedef struct DipMaps {
-    DipMap wanted;       // The map that the window showed last.
+    DipMap wanted;       // The map that the window showed when it was drawn last.
     DipPainter *painter; // Draws the panes' frames again; NULL until a map needs it.
     DipMapKey key;
-    bool failed;         // The frames that `key` describes could not be drawn.
+    bool failed;         // A frame that `key` describes could not be drawn or measured.
     uint64_t generation; // Grows whenever a measurement of work is added or dropped.
     DipMapWork panes[DIP_PANE_COUNT];
     DipErrorReading reading;
@@ -100,14 +100,14 @@ void dip_maps_free(DipMaps *maps);
 // measure errors at rest.
 bool dip_maps_need_errors(const DipToolState *tools);
 
-// Gives the maps the newest errors. pictures: borrowed until the next call; NULL if there are none.
-// The loop calls this function before it draws the window.
+// Gives the maps the newest errors. pictures: borrowed until the next call; NULL if no error was
+// measured yet. The loop calls this function before it draws the window.
 void dip_maps_set_errors(DipMaps *maps, const DipErrorReading *reading,
                          const DipErrorPictures *pictures);
 
-// Returns the picture of the truth, or NULL if it is not known. It is valid until the next call of
-// dip_maps_set_errors. Sets *version to the picture's version (dip_draw_list_picture), which
-// differs from the versions of all frames.
+// Returns the truth as a picture, or NULL if the truth is not known. The picture is valid until the
+// next call of dip_maps_set_errors. Sets *version to the picture's version (dip_draw_list_picture),
+// which differs from the versions of all frames.
 const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
 
 // Draws at most one frame for the map that the window showed last (DipMaps.wanted), if nothing
@@ -123,24 +123,24 @@ void dip_maps_choose(DipToolState *tools, DipMap map);
 // Returns what was measured of the frame that a pane shows.
 const DipMapWork *dip_maps_work(const DipMaps *maps, int pane);
 
-// Returns the tile that holds a pixel.
+// Returns the index of the tile that holds a pixel.
 int dip_map_tile(const DipMapWork *work, int x, int y);
 
-// Returns the number of pixels of a tile that lie in the frame.
+// Returns the number of a tile's pixels that lie inside the frame.
 int dip_map_tile_pixels(const DipMapWork *work, int tile);
 
-// Returns the value of a tile: ms for TIME, a mean per pixel for FRAGMENTS and PROBES, the share of
-// mixed pixels for SAMPLES.
+// Returns the value of a tile in a map: milliseconds for TIME, a mean per pixel for FRAGMENTS and
+// PROBES, the share of mixed pixels for SAMPLES.
 double dip_map_value(const DipMapWork *work, DipMap map, int tile);
 
-// Returns the value at the end of the colour scale, which is the same for both panes.
+// Returns the value at the end of the chosen map's colour scale, which is the same for both panes.
 double dip_maps_end(const DipMaps *maps, const DipToolState *tools);
 
 // --- pictures ------------------------------------------------------------------------------------
 
-// Makes the picture of a pane's map, which has the frame's size. Returns false if the map is not
-// known (yet). frame: the pane's picture, which shows dimly through maps of work. *picture is valid
-// until the next call for the pane.
+// Makes the picture of the chosen map for a pane, in the size of `frame`. Returns false if the
+// map's values are not known (yet). frame: the pane's picture, which shows dimly through maps of
+// work. *picture is valid until the next call for the pane.
 bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const DipPixels *frame,
                       uint64_t frame_version, DipPixels *picture, uint64_t *version);
 
@@ -150,14 +150,14 @@ bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const 
 const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
                             char *text, size_t size_bytes);
 
-// Returns the size of the mip level, in texels, whose colour is most like that of a pixel of the
-// map DIP_MAP_MIPS, or 0 if the pixel has no such colour or the map is not known. Light may dim the
-// colour, and colours of two levels mix where levels are blended.
+// Returns the side of the mip level, in texels, whose colour is most like that of a pixel of the
+// map DIP_MAP_MIPS. Returns 0 if no level's colour is similar or the map is not known. Light may
+// dim the colour, and colours of two levels mix where levels are blended.
 int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
 
 // Returns one of the colours that stand for sizes of mip levels. The colour `index` (0..7) stands
-// for levels of at least 1024 >> index texels, but less than twice as many. Colour 0 also stands
-// for all larger levels, colour 7 for all smaller ones.
+// for levels whose side has at least 1024 >> index texels, but less than twice as many. Colour 0
+// also stands for all larger levels, colour 7 for all smaller ones.
 DipColour dip_map_mip_colour(int index);
 
 #endif

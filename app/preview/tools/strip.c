@@ -1,5 +1,5 @@
-// Draws the thumbnails of a path with a renderer of their own. The renderer exists only until all
-// of them are drawn.
+// Draws the thumbnails of a path with a painter of the strip's own. The painter exists only until
+// all thumbnails are drawn.
 #include "app/preview/tools/strip.h"
 
 #include "campaths/campath.h"
@@ -23,7 +23,7 @@ static DipStripSubject subject_of(const DipStrip *strip, const DipToolsInput *in
     const DipCamTrack *track = &input->session->track;
     const DipCamCategory *category = &track->categories[track->active];
     DipStripSubject subject;
-    memset(&subject, 0, sizeof subject); // memcmp compares the padding, too.
+    memset(&subject, 0, sizeof subject); // Clears the padding, which memcmp compares, too.
     category = category->path ? category : &track->categories[0];
     subject.path = category->path;
     subject.fov_y_deg = category->fov_y_deg;

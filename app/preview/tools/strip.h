@@ -28,11 +28,11 @@ typedef struct DipStripSubject {
 
 typedef struct DipStrip {
     DipStripSubject subject;
-    DipPainter *painter; // NULL unless thumbnails are being drawn.
+    DipPainter *painter; // Draws the thumbnails; NULL unless some are still to be drawn.
     DipCanvas pictures[DIP_STRIP_COUNT];
     uint64_t versions[DIP_STRIP_COUNT];
     uint64_t version; // Version of the thumbnail that was drawn last.
-    int drawn;        // Number of thumbnails, from the first, that show the subject.
+    int drawn;        // Number of thumbnails, from the first on, that show the subject.
     bool failed;      // The subject cannot be drawn.
     bool wanted;
     int wanted_width;
@@ -42,15 +42,16 @@ typedef struct DipStrip {
 
 void dip_strip_free(DipStrip *strip);
 
-// Asks for thumbnails of a size in pixels. The tab that shows the strip calls it while the window
-// is drawn. Without a call since the last update, the strip draws nothing.
+// Asks for thumbnails of a size in pixels. The tab that shows the strip calls this function while
+// the window is drawn. An update draws nothing if there was no call since the update before.
 void dip_strip_want(DipStrip *strip, int width, int height);
 
 // Draws the next thumbnail if the strip is wanted and incomplete, and camera and scene stand still.
 // Returns whether it drew a thumbnail. Scenes of the gallery have no strip.
 bool dip_strip_update(DipStrip *strip, const DipToolsInput *input);
 
-// Returns one of DIP_STRIP_COUNT thumbnails. Its picture is valid until the next update.
+// Returns one of the DIP_STRIP_COUNT thumbnails. The thumbnail's picture is valid until the next
+// update.
 DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index);
 
 // Returns the duration of the path that the strip shows, or 0 if the strip has no path.

@@ -1,5 +1,5 @@
-// Holds the tools for looking closer at the pictures: the loupe, comparisons, maps and the strip of
-// thumbnails.
+// Holds the tools with which the user examines the pictures: the loupe, comparisons, maps and the
+// strip of thumbnails.
 #ifndef DIP_APP_PREVIEW_TOOLS_TOOLS_H
 #define DIP_APP_PREVIEW_TOOLS_TOOLS_H
 
@@ -8,8 +8,8 @@
 #include "app/preview/tools/maps.h"
 #include "app/preview/tools/strip.h"
 
-// Memory of the tools: pictures that they compute from the panes' frames. Owned by the preview's
-// loop.
+// Memory of the tools: among others, the pictures that they compute from the panes' frames. Owned
+// by the preview's loop.
 struct DipTools {
     DipLoupe loupe;
     DipComparer compare;
@@ -22,9 +22,8 @@ void dip_tools_destroy(DipTools **tools);
 
 // Does the tools' work that needs renderers: reads the samples that the loupe shows, draws one
 // thumbnail of the path, and draws one frame for a map. Each of these happens only while the
-// pictures are still: a thumbnail is drawn while the strip shows, and a frame while a map shows.
-// The samples that the loupe showed last are read for new pictures even after its tab was closed.
-// The loop calls this function after each window that it draws, on the thread that draws frames.
+// pictures are still and the tool is in use: the loupe is on, the strip shows, or a map shows. The
+// loop calls this function after each window that it draws, on the thread that draws frames.
 // Returns whether the window must be drawn again.
 bool dip_tools_update(DipTools *tools, const DipToolsInput *input);
 

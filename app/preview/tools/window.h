@@ -1,5 +1,5 @@
-// Declares what the window shows in one pass (ui.h), and the functions of the tools that draw over
-// the panes.
+// Declares what the window shows in one pass (ui.h), and the functions by which the tools draw the
+// panes, draw over them and take events.
 #ifndef DIP_APP_PREVIEW_TOOLS_WINDOW_H
 #define DIP_APP_PREVIEW_TOOLS_WINDOW_H
 
@@ -21,8 +21,9 @@ typedef struct DipWindow {
     int64_t now_ns;                    // Time on the display's clock, as in DipUiPass.
     const DipPaneFigures *figures;     // Array with the figures of each pane.
     const DipPrices *prices;
-    DipTools *tools; // What the tools have computed: loupe, comparison, maps and thumbnails.
-    // The converged picture of this pose, of the size of the frames; NULL if it is not known.
+    DipTools *tools; // The memory of the tools: loupe, comparison, maps and thumbnails.
+    // The converged picture from the frames' pose and in their size; NULL if this picture is not
+    // known.
     const DipPixels *truth;
     uint64_t truth_version; // Equal versions mean equal pixels. No frame has the same number.
 } DipWindow;
@@ -38,13 +39,13 @@ void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DI
 
 // Lets the mouse fly the camera. `panes`: what the user did with each pane's control in this pass.
 // Dragging with the right button turns the camera, and frees it from the path. Dragging with the
-// left button turns a camera that is free already, unless a tool uses the button. The wheel changes
+// left button turns a camera that is free already, unless a wipe uses the button. The wheel changes
 // the speed of the free camera, or the distance of a free camera that orbits. With Ctrl, the wheel
 // is left to the loupe.
 //
 // Removes from `panes` the input that has flown the camera, so that no tool acts on it: the wheel's
-// steps and the press of the right button. If the button is released without a drag, its press is
-// reported then.
+// steps and the press of the right button. A press of the right button is reported when the button
+// is released without a drag.
 void dip_fly_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_COUNT]);
 
 // Lets arrow keys move the loupe by a pixel, or with Shift by 8 pixels, while the loupe is on. Keys
