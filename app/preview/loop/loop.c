@@ -158,8 +158,8 @@ static void drop_file(DipPreview *preview, const char *file, int64_t now_ns) {
     }
 }
 
-// A key acts on the control with the focus or, if no control takes it, on the preview. Escape first
-// takes the focus away.
+// A key acts on the control with the focus or, if no control takes it, on the preview. If a control
+// has the focus, Escape only takes the focus away.
 static void press_key(DipPreview *preview, const DipEvent *event, int64_t now_ns) {
     const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
     DipUi *ui = dip_view_ui(preview->view);
@@ -239,7 +239,7 @@ static bool take_event(DipPreview *preview, int timeout_ms) {
     return true;
 }
 
-// Moves the free camera as the held keys and the controllers say.
+// Moves the free camera as the user and the path editor ask (dip_pilot_turn).
 static void fly(DipPreview *preview, int64_t elapsed_ns) {
     const DipPilotTurn turn = {.session = preview->def.session,
                                .keys = dip_keys_camera(&preview->held),
@@ -303,8 +303,8 @@ static void copy_settings(DipPreview *preview, int64_t now_ns) {
     }
 }
 
-// Notices whether the panes have another size: the dock may have been opened or folded, or a
-// terminal may show or hide its settings.
+// Notices whether the panes' frames need another size: the dock may have been opened or folded,
+// another comparison chosen, or the settings in a terminal shown or hidden.
 static void follow_layout(DipPreview *preview) {
     const DipLayout layout = dip_preview_layout(preview);
     int width, height;
@@ -314,8 +314,8 @@ static void follow_layout(DipPreview *preview) {
     preview->pane_height = height;
 }
 
-// Works out what can be chosen with the present prices and budget. Returns whether that has
-// changed.
+// Finds the settings that can be chosen with the present prices and budget. Returns whether they
+// were found anew.
 static bool choose(DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     return dip_preview_choose(&preview->choice, preview->prices,
@@ -343,7 +343,8 @@ static void follow_title(DipPreview *preview) {
     }
 }
 
-// When another path or scene plays, finds out whether the camera or the scene moves.
+// When another path or scene plays, finds out whether the camera moves, whether the scene moves,
+// and whether the scene has shadows.
 static void follow_motion(DipPreview *preview) {
     const DipSession *session = preview->def.session;
     const DipCamPath *path = dip_preview_playing_path(&preview->state);
@@ -358,8 +359,8 @@ static void follow_motion(DipPreview *preview) {
     }
 }
 
-// Draws and presents the picture if something has changed. Sets *shown to whether something has
-// changed. `err` must not be NULL.
+// Lets time pass, carries out what the user has asked for, and measures. Draws and presents the
+// picture if something has changed, and sets *shown to whether it has. `err` must not be NULL.
 static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError *err) {
     DipPreviewState *state = &preview->state;
     const bool had_notice = state->notice[0] != '\0';
@@ -408,7 +409,7 @@ static bool draw_turn(DipPreview *preview, int64_t now_ns, bool *shown, DipError
 static void wait_for_turn(DipPreview *preview, bool shown) {
     if (!shown) {
         const bool busy = dip_live_prices_are_working(preview->live_prices) &&
-                          // This text is empty while measuring is paused.
+                          // The text of the progress is empty while measuring is paused.
                           dip_prices_progress(preview->prices)[0] != '\0';
         take_event(preview, busy ? 0 : IDLE_WAIT_MS);
         return;

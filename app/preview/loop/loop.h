@@ -1,8 +1,9 @@
 // Runs the preview on any display: handles events, lets time pass, draws and presents.
 //
-// The owner calls dip_preview_turn until dip_preview_has_quit. A turn handles the events that have
-// arrived, and draws and presents at most one frame. If the turn presented a frame, it then waits
-// for the display's next refresh. Otherwise it waits a short time for an event.
+// The owner calls dip_preview_turn until dip_preview_has_quit returns true. A turn handles the
+// events that have arrived, and draws and presents at most one frame. If the turn presented a
+// frame, it then waits for the display's next refresh. Otherwise it waits a short time for an
+// event, or not at all while there are prices to measure.
 #ifndef DIP_APP_PREVIEW_LOOP_LOOP_H
 #define DIP_APP_PREVIEW_LOOP_LOOP_H
 
@@ -20,11 +21,11 @@ typedef struct DipPreviewMoment {
     DipPreviewState *state; // The program may change it, as keys do.
     DipSession *session;
     const DipDisplay *display;
-    const DipPaneFigures *figures; // One for each pane.
+    const DipPaneFigures *figures; // Array with the figures of each pane.
     const DipPrices *prices;
-    const DipFrame *panes; // The frames drawn last, one for each pane; no pixels before the first.
-    DipPixels picture;     // The picture presented last.
-    bool drawn;            // The frames and the picture show what the state asks for.
+    const DipFrame *panes; // Both panes' newest frames; rgba8 is NULL before the first ones.
+    DipPixels picture;     // The display's picture that was drawn last.
+    bool drawn;            // The frames and the picture show everything that the state asks for.
     int64_t now_ns;
 } DipPreviewMoment;
 
@@ -43,18 +44,18 @@ typedef struct DipPreviewDef {
     DipSession *session;         // Borrowed.
     DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
     DipCostReport *costs;        // Borrowed; NULL if there is no cost report.
-    struct DipReload *reload;    // Borrowed; with NULL, the preview ignores dropped files.
+    struct DipReload *reload;    // Borrowed; with NULL, no files or animations can be opened.
     DipPrices *prices;           // Borrowed; with NULL, the preview makes prices of its own.
-    bool measures_prices;        // Measure rough prices (live_prices.h) while nothing moves.
+    bool measures_prices;        // Rough prices (live_prices.h) are measured while nothing moves.
     const char *cache;           // Borrowed folder of cached truths (truth.h), or NULL.
-    double flying_speed_m_per_s; // Speed of the free camera.
+    double flying_speed_m_per_s; // Speed of the free camera until the user changes the speed.
     DipPreviewControl control;   // Its context is borrowed.
-    double ui_scale;             // --ui-scale, which enlarges controls; 0 without the option.
-    bool hides_panel;            // The window shows nothing but the panes at first.
-    const char *notice;          // Shown at first for a few seconds; may be NULL. Copied.
+    double ui_scale;    // Value of --ui-scale, which enlarges controls; 0 without the option.
+    bool hides_panel;   // The window shows nothing but the panes at first.
+    const char *notice; // Notice that shows at first; may be NULL. Copied.
 
-    // Loads session->scene_def, which is needed to measure errors. Called when the window, another
-    // program or prices first need errors, since the load takes time and memory.
+    // Loads session->scene_def, which is needed to measure errors. Called only when the window,
+    // another program or prices first need errors, since loading takes time and memory.
     bool (*load_scene_def)(void *context, DipError *err);
     void *context;
 } DipPreviewDef;

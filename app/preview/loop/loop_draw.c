@@ -11,7 +11,7 @@
 
 // --- the panes' frames ---------------------------------------------------------------------------
 
-// Sets the renderers to the panes' settings. If a pane's settings change, forgets the pane's
+// Gives the renderers the panes' settings. If a pane's settings have changed, forgets the pane's
 // times.
 static bool follow_settings(DipPreview *preview, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -38,7 +38,8 @@ static bool resize_panes(DipPreview *preview, int width, int height, DipError *e
 }
 
 // If memory has run out for a new size, goes back to the size of the last frame, which the view
-// scales to the panes. Returns false after any other error, or if there was no frame.
+// scales to the panes. Returns false after any other error, if there was no frame, or if the old
+// size fails, too.
 static bool keep_size(DipPreview *preview, DipError *err) {
     if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0) {
         return false;
@@ -47,8 +48,8 @@ static bool keep_size(DipPreview *preview, DipError *err) {
     return resize_panes(preview, preview->drawn.width, preview->drawn.height, err);
 }
 
-// Sets the renderers to the panes' size. A frame's size is limited; if the display is larger,
-// the view scales the frame up.
+// Gives the renderers the panes' size. A frame's size is limited to DIP_MAX_FRAME_SIZE; if a pane
+// is larger, the view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
     const DipLayout layout = dip_preview_layout(preview);
     int width, height;
@@ -82,9 +83,9 @@ static void number_picture(DipPreview *preview) {
     }
 }
 
-// The panes share shading while frames follow each other and the time of each pane's settings is
-// known. They do not share it in a single frame or in the first frame with new settings, so these
-// frames give the times of both panes.
+// Draws both panes with their settings. The panes share shading while frames follow each other and
+// the time of each pane's settings is known. They do not share it in a single frame or in the first
+// frame with new settings, so these frames give the times of both panes.
 static bool draw_with_settings(DipPreview *preview, DipError *err) {
     if (!follow_settings(preview, err)) {
         return false;
@@ -96,7 +97,7 @@ static bool draw_with_settings(DipPreview *preview, DipError *err) {
 }
 
 // If memory has run out for new settings, draws with the settings of the last frame. Returns false
-// after any other error, or if the settings were not new.
+// after any other error, if the settings were not new, or if drawing fails again.
 static bool take_back_settings(DipPreview *preview, DipError *err) {
     const size_t size_bytes = sizeof preview->drawn.quality;
     if (err->code != DIP_ERROR_MEMORY || preview->picture_number == 0 ||
@@ -177,8 +178,9 @@ bool dip_loop_alternates(const DipPreview *preview) {
            pane_alternates(preview, DIP_PANE_REQUESTED);
 }
 
-// Writes into the figures of each pane with alternating sample patterns whether frames come fast
-// enough for them. This entry changes only as often as the other figures.
+// Writes into the figures of each pane (taa_speed) whether frames come fast enough for alternating
+// sample patterns. This changes only as often as the other figures, and is cleared for a pane
+// without such patterns.
 static void judge_taa(DipPreview *preview, int64_t now_ns) {
     const DipTaaSpeed speed =
         dip_taa_pace_update(&preview->taa_pace, dip_loop_alternates(preview),
@@ -195,7 +197,7 @@ static void judge_taa(DipPreview *preview, int64_t now_ns) {
 
 // --- files that the user saves -------------------------------------------------------------------
 
-// Draws both panes side by side, with the gap between them.
+// Draws both panes' frames side by side into *joined, with the gap between them.
 static bool join_panes(const DipFrame panes[DIP_PANE_COUNT], DipCanvas *joined, DipError *err) {
     const DipFrame *current = &panes[DIP_PANE_CURRENT], *requested = &panes[DIP_PANE_REQUESTED];
     const int right = current->width + DIP_PANE_GAP_PX, width = right + requested->width;
@@ -302,7 +304,7 @@ static void *run_prefetch(void *context) {
     return NULL;
 }
 
-// Starts the thread that prepares textures; a second call does nothing. The scene must outlive
+// Starts the thread that prepares textures; a second call does nothing. The scene must live until
 // dip_prefetch_end.
 static void begin_prefetch(DipPrefetch *prefetch, const DipScene *scene) {
     if (prefetch->scene) {
@@ -319,7 +321,7 @@ void dip_prefetch_end(DipPrefetch *prefetch) {
     }
 }
 
-// Lets the loupe, the comparison and the maps compute the pictures that the window has asked for.
+// Lets the loupe, the strip of thumbnails and the maps do the work that the window has asked for.
 static void update_tools(DipPreview *preview) {
     const DipFrame *frame = &preview->frame.panes[DIP_PANE_CURRENT];
     const DipToolsInput input = {
@@ -347,7 +349,7 @@ bool dip_loop_show(DipPreview *preview, int64_t now_ns, DipError *err) {
     }
     if (preview->state.screenshot) {
         save_picture(preview, now_ns);
-        if (!draw_view(preview, err)) { // Shows the notice that names the file.
+        if (!draw_view(preview, err)) { // Shows the notice that names the file or the error.
             return false;
         }
     }

@@ -5,7 +5,7 @@
 
 #include <limits.h>
 
-// Rough prices are measured for about this time in each turn.
+// Rough prices are measured for about this time in each turn, in milliseconds.
 static const double price_budget_ms = 8.0;
 // A truth (converged picture) with fewer samples per pixel is too noisy for prices.
 static const int least_truth_samples = 32;
@@ -24,10 +24,10 @@ static bool wants_prices(const DipPreview *preview) {
            dip_preview_rests(state, preview->flying);
 }
 
-// Returns whether the settings' price tags or the advice need the truth (the converged picture),
-// against which their errors are measured. For prices alone, the thread that draws the truth is
-// created only when all times are known at least roughly, because it would disturb their
-// measurement.
+// Returns whether the prices or the advice that show need the truth (the converged picture),
+// against which the errors of settings are measured. For prices alone, the thread that draws the
+// truth is created only when all times are known at least roughly, because the thread would disturb
+// the measurement of times.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;
@@ -45,11 +45,11 @@ static bool shows_errors(const DipPreview *preview) {
     return looks_at_errors(preview) || preview->state.wants_errors;
 }
 
-// Returns the samples per pixel of the finest truth that may be drawn now. Times and truths take
-// turns, the cheapest useful one first. Rough times come first. Next comes a truth of
-// least_truth_samples, together with the settings' errors against it. Better times follow, and then
-// finer truths. While the user looks at errors, the truth of least_truth_samples comes before the
-// rough times.
+// Returns the samples per pixel of the finest truth that may be drawn now. Measuring times and
+// drawing truths take turns. Rough times come first. Next comes a truth of least_truth_samples,
+// together with the settings' errors against it. Better times follow, and then finer truths. While
+// the user looks at errors, the truth of least_truth_samples comes before the rough times. If no
+// prices are measured, there is no limit (INT_MAX).
 static int truth_limit(const DipPreview *preview) {
     if (!wants_prices(preview)) {
         return INT_MAX;
@@ -138,8 +138,8 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
     return news;
 }
 
-// Returns the truth of the panes' picture, against which the errors of prices are measured. It has
-// no pixels while it is too noisy for this.
+// Returns the truth of the panes' picture, against which the errors of prices are measured. The
+// truth has no pixels while there is none or it is too noisy for this.
 static DipLiveTruth truth_for_prices(const DipPreview *preview) {
     if (!preview->errors || !wants_errors(preview)) {
         return (DipLiveTruth){.samples = 0};

@@ -75,8 +75,8 @@ static void follow_track(DipSession *session, DipPreviewState *state, const DipC
 //
 // The settings that the user has chosen stay, unless the new session begins with other settings
 // than the old one did. This happens only if the ini file has changed or is another one. If a file
-// was dropped, the camera begins the new path. Otherwise it stays on the same path at the same
-// time.
+// was dropped, the camera begins the new path. Otherwise the camera stays at the same time on the
+// same path, if this path still exists.
 static void hand_over(DipPreview *preview, bool dropped) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;
@@ -90,7 +90,7 @@ static void hand_over(DipPreview *preview, bool dropped) {
     if (strcmp(scene, scene_before) != 0) {
         state->costs = NULL; // The report is about the previous scene.
     }
-    if (session->config.target_fps != fps_before) { // Another ini, or a changed one.
+    if (session->config.target_fps != fps_before) { // The ini is another one or has changed.
         const double fps = session->config.target_fps;
         dip_preview_set_budget(state, fps > 0.0 ? 1000.0 / fps : 0.0);
     }

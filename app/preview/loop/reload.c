@@ -1,4 +1,4 @@
-// Opens sessions on a thread, from files that were dropped or have changed, or with another
+// Opens sessions on a thread: from files that were dropped or have changed, or with another
 // animation.
 #include "app/preview/loop/reload.h"
 
@@ -25,7 +25,7 @@ typedef struct Opening {
     bool running;
     atomic_bool done;
     const char *file;               // The dropped file; NULL if none was dropped.
-    bool animated;                  // Another animation was chosen.
+    bool animated;                  // The session is opened because another animation was chosen.
     char name[DIP_WATCH_NAME_SIZE]; // Name, without folder, of the dropped or changed file, or of
                                     // the chosen animation.
     DipSessionOptions options;
@@ -45,14 +45,14 @@ struct DipReload {
     const char *animation;        // Animation that waits to be opened, or NULL.
     const char *drops[MAX_DROPS]; // Dropped files to be opened, the oldest first.
     int drop_count;
-    const char *passed; // The dropped file that was opened last, if another one waited behind it;
+    const char *passed; // The dropped file that was tried last, if another one waited behind it;
                         // otherwise NULL.
     bool passed_failed; // `passed` could not be opened.
     // Names of all files dropped and animations chosen so far, each once; options point to them.
     char **names;
     int name_count;
     Opening opening;
-    DipCostReport *costs; // Owned; NULL if none was opened.
+    DipCostReport *costs; // The report that was dropped last. Owned; NULL if none was opened.
 };
 
 // --- the files of a session ----------------------------------------------------------------------
@@ -155,7 +155,8 @@ void dip_reload_destroy(DipReload **reload_pointer) {
 
 // --- dropped files -------------------------------------------------------------------------------
 
-// Returns a copy of the name that lives as long as the reload, or NULL when memory runs out.
+// Returns a copy of a name. The copy lives as long as the reload. Returns NULL when memory runs
+// out.
 static const char *keep_name(DipReload *reload, const char *file) {
     for (int i = 0; i < reload->name_count; ++i) {
         if (strcmp(reload->names[i], file) == 0) {
@@ -260,7 +261,7 @@ static bool tell_fault(DipReloadNews *news, const DipErrorList *faults) {
     return true;
 }
 
-// Tells about an error and writes it to the log.
+// Turns an error into news and writes it to the log. Returns true.
 static bool tell_error(DipReloadNews *news, const DipError *err) {
     DipErrorList faults = {0};
     dip_error_list_add(&faults, err);
@@ -279,7 +280,7 @@ static bool is_no_file(const char *file) {
 }
 
 // Begins to open the dropped `file`. If `file` is NULL, begins to open the files of the present
-// session again, with the animation that waits, if there is one.
+// session again, with the animation that waits, if there is one. `name` is the name for notices.
 static bool begin(DipReload *reload, const char *file, const char *name, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     opening->options = reload->options;
@@ -361,7 +362,8 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     }
 }
 
-// Adds to the notice what became of the file that was dropped just before this one.
+// Adds to the notice what became of the file that was dropped just before the file that is open
+// now.
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {
@@ -371,7 +373,7 @@ static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     }
 }
 
-// Takes the result of the thread that opened a session. The thread has ended.
+// Joins the thread that opened a session, and turns the result into news. Returns true.
 static bool finish(DipReload *reload, DipReloadNews *news) {
     Opening *opening = &reload->opening;
     join(opening);

@@ -3,8 +3,8 @@
 // changed. The new session replaces the old one when it is completely open. If it cannot be opened,
 // the old one stays.
 //
-// Sessions are opened on a thread, so that the preview keeps running. All functions of this file
-// must be called on one thread, that of the preview.
+// Sessions are opened on a thread, so that the preview keeps running. All functions that this file
+// declares must be called on the thread of the preview.
 #ifndef DIP_APP_PREVIEW_LOOP_RELOAD_H
 #define DIP_APP_PREVIEW_LOOP_RELOAD_H
 
@@ -29,8 +29,8 @@ void dip_reload_destroy(DipReload **reload);
 // too many files wait or memory runs out.
 bool dip_reload_drop(DipReload *reload, const char *file);
 
-// Opens the session again with this animation of the models, or "none". Of animations that wait to
-// be opened, only the last one counts. Returns false if memory runs out.
+// Lets dip_reload_poll open the session again with an animation of the models, or with "none". Of
+// animations that wait to be opened, only the last one counts. Returns false if memory runs out.
 bool dip_reload_animate(DipReload *reload, const char *animation);
 
 typedef enum DipReloadKind {
@@ -38,21 +38,22 @@ typedef enum DipReloadKind {
     DIP_RELOAD_BEGUN,   // A session is being opened.
     DIP_RELOAD_SESSION, // A new session is open. Call dip_reload_take.
     DIP_RELOAD_COSTS,   // A new cost report is loaded.
-    DIP_RELOAD_FAULT    // Something cannot be opened. The log has the errors of its files.
+    DIP_RELOAD_FAULT // Something could not be opened. The notice says why; the log has all errors
+                     // of files.
 } DipReloadKind;
 
 typedef struct DipReloadNews {
     DipReloadKind kind;
     bool dropped;                 // The news is about a file that the user dropped.
     bool animated;                // The news is about the animation that the user chose last.
-    bool warns;                   // With SESSION: the notice has warnings about the new session.
+    bool warns;                   // With SESSION: the notice names warnings about the new session.
     char notice[DIP_NOTICE_SIZE]; // What to tell the user.
-    const DipCostReport *costs;   // With COSTS, the report. Valid until the next one is loaded.
+    const DipCostReport *costs;   // With COSTS: the report. Valid until the next one is loaded.
 } DipReloadNews;
 
 // Looks for changed files, and begins or finishes the opening of a session. Call it in every turn
-// of the preview. Returns whether there is news. If a cost report is opened, `prices` uses its
-// prices. now_ns: time on the preview's clock.
+// of the preview. Returns whether there is news. If a cost report is opened, `prices` takes prices
+// from it. now_ns: time on the preview's clock.
 bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news);
 
 // Puts the new session in the place of the old one, which is closed: nothing may use the old one's

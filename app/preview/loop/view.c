@@ -11,7 +11,7 @@ struct DipView {
     DipUi *ui;
     DipDrawList *list;
     DipCanvas canvas;
-    DipDamage damage; // Changes since dip_view_take_damage was last called.
+    DipDamage damage; // What has changed since dip_view_take_damage was last called.
     DipPixels frames[DIP_PANE_COUNT];
     uint64_t frame_count; // Number of frames set so far; also the newest frame's version.
     uint64_t versions[DIP_PANE_COUNT];
@@ -119,7 +119,7 @@ bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *e
     return pass_over(view, input, NULL, event);
 }
 
-// Draws the panes into the picture, and the texts into character cells.
+// Draws the panes into the draw list, and the texts into character cells.
 static bool draw_text(DipView *view, const DipViewInput *input, DipError *err) {
     const DipLayout layout = dip_view_layout(input);
     dip_draw_list_fill(view->list, (DipRect){0, 0, input->width, input->height},

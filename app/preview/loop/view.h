@@ -15,7 +15,7 @@ typedef struct DipView DipView;
 DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
 
-// Returns the pixels of a frame. They still belong to the frame.
+// Returns the pixels of a frame, which the frame still owns.
 DipPixels dip_view_pixels(const DipFrame *frame);
 
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
@@ -24,21 +24,21 @@ void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
 // Returns the version of a pane's picture: equal versions mean equal pixels.
 uint64_t dip_view_version(const DipView *view, int pane);
 
-// What the window shows besides the panes' frames. All of it is borrowed for a call.
+// What the window shows besides the panes' frames. All pointers are borrowed for a call.
 typedef struct DipViewInput {
     int width; // Size of the window in pixels.
     int height;
     double scale; // The display's scale (display.h).
     int64_t now_ns;
     DipPreviewState *state;
-    const DipPaneFigures *figures; // One for each pane.
+    const DipPaneFigures *figures; // Array with the figures of each pane.
     const DipPrices *prices;
     DipTools *tools;
     DipTextView *text; // Draws the texts as character cells; NULL if the picture holds them.
     bool still;        // Camera and scene stand still.
 } DipViewInput;
 
-// Returns where panes and dock lie.
+// Returns where the panes and the dock lie.
 DipLayout dip_view_layout(const DipViewInput *input);
 
 // Hands an event to the window's controls, which change input->state. Returns whether one of them
@@ -48,7 +48,8 @@ bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *e
 // Draws what has changed since the last call, or everything if the size has changed.
 bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err);
 
-// Returns the window's controls, which know their focus and when they must be drawn again (ui.h).
+// Returns the window's controls (ui.h), which know the focus and when the window must be drawn
+// again.
 DipUi *dip_view_ui(DipView *view);
 
 // Returns the picture, which is valid until the next dip_view_draw.

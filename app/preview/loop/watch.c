@@ -29,9 +29,9 @@ typedef struct Stamp {
 } Stamp;
 
 typedef struct Entry {
-    char *file; // Path of a file, or of a folder without a final slash.
+    char *file; // Path of a file, or of a folder without a final slash (except "/").
     bool folder;
-    bool listed; // The new list names the entry (dip_watch_begin_list).
+    bool listed; // The entry is in the new list (dip_watch_begin_list).
     Stamp stamp;
 } Entry;
 
@@ -153,7 +153,8 @@ void dip_watch_end_list(DipWatch *watch) {
     watch->count = kept;
 }
 
-// Takes ownership of `file`, which is NULL if memory has run out.
+// Adds an entry to the list, or marks a known one as listed. Takes ownership of `file`, which is
+// NULL if memory has run out.
 static void add_entry(DipWatch *watch, char *file, bool folder) {
     for (int i = 0; file && i < watch->count; ++i) {
         Entry *known = &watch->entries[i];
@@ -180,7 +181,7 @@ void dip_watch_file(DipWatch *watch, const char *file) {
 }
 
 void dip_watch_folder(DipWatch *watch, const char *file) {
-    const size_t length = (size_t)(base_name(file) - file); // Length of the folder, with its slash.
+    const size_t length = (size_t)(base_name(file) - file); // Of the folder's path and a slash.
     add_entry(watch, length == 0 ? strdup(".") : strndup(file, length > 1 ? length - 1 : 1), true);
 }
 

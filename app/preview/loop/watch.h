@@ -19,8 +19,8 @@ void dip_watch_destroy(DipWatch **watch);
 
 // These functions replace the list of watched files. Call dip_watch_begin_list, then dip_watch_file
 // and dip_watch_folder for each entry, then dip_watch_end_list. An entry that was in the old list
-// keeps its known state, so that no change is missed. The files need not exist. If memory runs out,
-// an entry is left out.
+// keeps its stamp, so that no change is missed. The files need not exist. If memory runs out, an
+// entry is left out.
 void dip_watch_begin_list(DipWatch *watch);
 void dip_watch_end_list(DipWatch *watch);
 void dip_watch_file(DipWatch *watch, const char *file);
@@ -30,9 +30,10 @@ void dip_watch_file(DipWatch *watch, const char *file);
 void dip_watch_folder(DipWatch *watch, const char *file);
 
 // Looks at the files if a quarter of a second has passed since the last look. Returns true once
-// after files have changed and come to rest. Then sets `name` to the name, without its folder, of
-// the file that was written last where the last change was seen, or to "" if files have only
-// disappeared there. `now_ns` is the time on any clock that does not go backwards.
+// after files have changed and come to rest. Then sets `name`: if the last change was seen in a
+// folder, to the name of the file in it that was written last; if it was seen in a file, to that
+// file's name. The name has no folder; it is "" if files have only disappeared. `now_ns` is the
+// time on any clock that does not go backwards.
 bool dip_watch_poll(DipWatch *watch, int64_t now_ns, char name[DIP_WATCH_NAME_SIZE]);
 
 #endif
