@@ -16,7 +16,7 @@ struct DipErrorJob {
     float *flip[DIP_PANE_COUNT]; // FLIP of each pixel of a pane.
     DipMetricSums sums[DIP_PANE_COUNT];
     bool judges; // True while a pane's picture must still be compared with the newest truth.
-    int pane;    // The pane that is compared next or, if has_begun, now.
+    int pane;    // The pane that is compared next, or now if has_begun is true.
     bool has_begun;
     DipErrorJobResult result;
 };
@@ -109,7 +109,7 @@ bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err)
 // --- the errors --------------------------------------------------------------------------------
 
 // Returns the pane that holds the picture of `pane`. If both panes show the same picture, only the
-// current pane holds it.
+// current pane holds the picture.
 static int shown_pane(const DipErrorJob *job, int pane) {
     return job->still.rgba8[pane] ? pane : DIP_PANE_CURRENT;
 }

@@ -1,8 +1,9 @@
 // Measures the errors of both panes' pictures against the converged picture from the same pose.
 //
 // The converged picture (the truth, app/measure/metrics/truth.h) is the mean of two halves that are
-// drawn independently. It is refined in levels of rising sample counts; each level gives a better
-// result. The work is cut into small steps, so that the caller can drop it between any two steps.
+// drawn independently. It is refined in levels, each with more samples per pixel than the level
+// before and with a better result. The work is cut into small steps, so that the caller can stop
+// between any two steps.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_JOB_H
 
@@ -13,7 +14,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// A still: the panes' pictures of one pose, time and size.
+// A still: both panes' pictures of one pose, time and size.
 typedef struct DipStill {
     DipPose pose;
     int64_t time_ns;
@@ -49,21 +50,21 @@ typedef struct DipErrorJobResult {
 
 typedef struct DipErrorJob DipErrorJob;
 
-// Creates a job. It borrows all arguments and sets the reference renderer's time to the time of
-// each still. Through the folder `cache`, it shares the last level of each truth with `diptych
+// Creates a job, which borrows all arguments and sets the reference renderer's time to the time of
+// each still. Through the folder `cache`, the job shares the last level of each truth with `diptych
 // cost`. The cache identifies the scene by `scene_hash`, which dip_cost_scene_hash
 // (app/cost/plan.h) computes. If `cache` is NULL, there is no cache.
 DipErrorJob *dip_error_job_create(DipReference *reference, const char *scene_hash,
                                   const char *cache, DipError *err);
 void dip_error_job_destroy(DipErrorJob **job);
 
-// Begins to measure a still, in place of the previous still. The new still's pictures are borrowed
+// Begins to measure a still, and drops the previous still. The new still's pictures are borrowed
 // until the next call of this function. If both stills have the same truth, the job keeps what it
 // has drawn of the truth. After a failure the job has no still.
 bool dip_error_job_begin(DipErrorJob *job, const DipStill *still, DipError *err);
 
-// Does a few milliseconds of work. Returns RESULT when there is a new result, and DONE when nothing
-// is left to do.
+// Does a few milliseconds of work. Returns RESULT when there is a new result, DONE when nothing is
+// left to do, and FAILED with *err after an error.
 DipStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
@@ -72,11 +73,12 @@ const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
 // 0 if the next step draws no truth.
 int dip_error_job_next_samples(const DipErrorJob *job);
 
-// Returns how much of the next truth is drawn, from 0 to 1.
+// Returns how much of the truth that is being drawn is done, from 0 to 1.
 double dip_error_job_drawn(const DipErrorJob *job);
 
-// The next two functions return the pictures behind the result. The pictures are complete between
-// the step that returned RESULT and the next step; later steps overwrite them. Rows are packed.
+// The next two functions return the pictures from which the result was measured. The pictures are
+// complete between the step that returned RESULT and the next step; later steps overwrite them.
+// Rows are packed.
 
 // Returns the FLIP value of each pixel of a pane, or NULL if the pane is not judged.
 const float *dip_error_job_flip(const DipErrorJob *job, int pane);

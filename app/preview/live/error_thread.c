@@ -16,7 +16,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-// The thread's nice value, by which its priority is lower than that of other threads. If all
+// The thread's nice value, which makes its priority lower than that of other threads. If all
 // threads compete for a processor, this thread gets 0.8 of the time of another thread. With a nice
 // value of 4, it got 0.4, and measuring errors took minutes beside many other programs; with an
 // idle priority it would get none.
@@ -24,19 +24,19 @@ enum { NICE = 1 };
 
 // A still that owns its pictures.
 typedef struct Still {
-    DipStill def; // Its pictures point into `memory`.
+    DipStill def; // The pictures of this DipStill point into `memory`.
     uint8_t *memory;
     size_t size_bytes;
 } Still;
 
-// The pictures behind a result, which pass from the thread to the caller. There are three of these
-// structs: the thread fills one, the caller reads another, and the third one holds the newest
-// pictures that the caller has not asked for yet. The structs are swapped under the lock, so that
-// no pixels are copied under it.
+// The pictures from which a result was measured; they pass from the thread to the caller. There are
+// three of these structs: the thread fills one, the caller reads another, and the third one holds
+// the newest pictures that the caller has not asked for yet. The structs are swapped under the
+// lock, so that no pixels are copied under it.
 typedef struct Pictures {
-    DipErrorPictures out; // Its pointers point into the arrays below.
-    DipStill still;       // The still that was measured; its pictures are not valid.
-    unsigned number;      // The number of this still; 0 if there are no pictures.
+    DipErrorPictures out; // The pointers of this struct point into the arrays below.
+    DipStill still;       // The still that was measured. Its pointers to pictures are not valid.
+    unsigned number;      // Number of this still (asked_number); 0 if there are no pictures.
     uint8_t *truth_rgba8; // Owned.
     float *flip;          // Owned; the FLIP maps of both panes.
     size_t pixels;        // Number of pixels of a picture, for which the arrays have room.
@@ -50,7 +50,8 @@ struct DipErrorThread {
     unsigned picture_number;
     bool shown;    // A still was given since the last pause.
     Pictures held; // The pictures that the caller reads.
-    DipStill last; // The last still, whose number is last_number.
+    DipStill last; // The last still, whose number is last_number. Its pointers to pictures are not
+                   // valid.
     unsigned last_number;
     pthread_t thread;
     bool running;
@@ -69,7 +70,7 @@ struct DipErrorThread {
     DipErrorReading reading;
     bool news;
     Pictures newest;
-    bool has_newest; // The caller has not taken `newest` yet.
+    bool has_newest; // `newest` has pictures that the caller has not taken yet.
 };
 
 // --- the thread --------------------------------------------------------------------------------
@@ -143,7 +144,7 @@ static void measure_spread(DipFlipTailMeter *meter, const float *flip, int width
     spread->tail = dip_flip_tail_result(meter);
 }
 
-// Copies the pictures of the job's result, without the lock.
+// Copies the pictures of the job's result. Does not hold the lock.
 static bool fill_pictures(Worker *worker) {
     const DipStill *still = &worker->still.def;
     const size_t pixels = (size_t)still->width * (size_t)still->height;
@@ -173,7 +174,7 @@ static bool fill_pictures(Worker *worker) {
     return true;
 }
 
-// Makes the pictures that the thread has filled the newest ones.
+// Makes the thread's pictures the newest ones of the owner.
 static void pass_pictures(Worker *worker) {
     DipErrorThread *owner = worker->owner;
     pthread_mutex_lock(&owner->lock);

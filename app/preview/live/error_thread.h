@@ -2,8 +2,9 @@
 //
 // The thread has a slightly lower priority than the threads that draw frames. It gets a share of
 // the processors even if other programs keep all of them busy. It runs a DipErrorJob in steps of a
-// few milliseconds. When it gets new pictures, it first ends the current step. It keeps what it has
-// drawn of the truth (the converged picture) if the new pictures have the same truth.
+// few milliseconds. When the thread gets new pictures, it first ends the current step. If the new
+// pictures have the same truth (converged picture), the thread keeps what it has drawn of the
+// truth.
 #ifndef DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 #define DIP_APP_PREVIEW_LIVE_ERROR_THREAD_H
 
@@ -12,8 +13,9 @@
 
 typedef struct DipErrorThread DipErrorThread;
 
-// Borrows the scene and `cache`, the folder of cached truths (converged pictures), or NULL for no
-// cache. The thread starts, and allocates memory, with the first measurement.
+// Borrows the scene and `cache`, the folder of cached truths (converged pictures). If `cache` is
+// NULL, there is no cache. The thread starts with the first measurement, and only then allocates
+// its memory.
 DipErrorThread *dip_error_thread_create(const DipSceneDef *scene,
                                         const DipReflectionDef *reflection, const char *cache,
                                         DipError *err);
@@ -32,8 +34,8 @@ void dip_error_thread_measure(DipErrorThread *thread, const DipStill *still,
 // measuring of errors against a truth that is drawn already. At first there is no limit.
 void dip_error_thread_limit(DipErrorThread *thread, int samples);
 
-// Stops measuring and forgets the errors. A truth that is drawn already is used again if the next
-// still has the same truth. Call it while the camera moves.
+// Stops measuring and forgets the errors. What is drawn of a truth is used again if the next still
+// has the same truth. Call it while the camera moves.
 void dip_error_thread_pause(DipErrorThread *thread);
 
 typedef enum DipErrorStatus {
@@ -47,12 +49,13 @@ typedef struct DipErrorReading {
     DipErrorStatus status;
     DipErrorJobResult result;
     int next_samples; // Samples per pixel of the truth that is being drawn; 0 if there is none.
-    double drawn;     // How much of that truth is drawn, from 0 to 1.
+    double drawn;     // How much of the truth that is being drawn is done, from 0 to 1.
     bool waits;       // The thread waits for a processor most of the time.
 } DipErrorReading;
 
 // Reads the status and the result for the last still. Returns whether the status or the result has
-// changed since the previous call. The members after `result` may change at any call.
+// changed since the previous call. The members after `result` may change at any call, whatever the
+// function returns.
 bool dip_error_thread_read(DipErrorThread *thread, DipErrorReading *reading);
 
 // Number of bins, from FLIP 0 to FLIP 1, in which pixels are counted.
@@ -64,9 +67,11 @@ typedef struct DipErrorSpread {
     uint32_t bins[DIP_ERROR_BINS]; // Number of pixels in each bin.
 } DipErrorSpread;
 
-// The pictures behind a result: the truth, and the FLIP map of each pane. Rows are packed.
+// The pictures from which a result was measured: the truth, and the FLIP map of each pane. Rows are
+// packed.
 typedef struct DipErrorPictures {
-    uint64_t version; // Grows with each result. While it stays, only `flip` may change, to NULL.
+    uint64_t version; // Grows with each result. While it stays the same, only `flip` may change, to
+                      // NULL.
     int width;
     int height;
     DipErrorJobResult result;
@@ -78,9 +83,9 @@ typedef struct DipErrorPictures {
 } DipErrorPictures;
 
 // Returns the newest pictures that were made with the truth of the last still. Returns NULL if
-// there are none (yet) or measuring is paused. They are valid until the next call of any function
-// of this file except dip_error_thread_read. Only the thread that calls dip_error_thread_measure
-// may call this function.
+// there are none (yet) or measuring is paused. They are valid until the next call of a function
+// that this file declares, except dip_error_thread_read. Only the thread that calls
+// dip_error_thread_measure may call this function.
 const DipErrorPictures *dip_error_thread_pictures(DipErrorThread *thread);
 
 #endif

@@ -139,9 +139,9 @@ static int count_dropped(const DipFigures *figures, int64_t now_ns) {
     return (int)dropped;
 }
 
-// Sets the pane's shown time to the median of the last second. If no frame was drawn in that
-// second, the previous median stays, unless the settings have changed since. Returns whether the
-// median is new.
+// Sets a pane's shown time to the median of the last second. If no frame was drawn in that second,
+// the previous median stays, unless the pane's times were forgotten. Returns whether the median is
+// new.
 static bool follow_median(DipPaneFigures *shown, const DipTiming *total, int64_t now_ns) {
     const int frames = dip_timing_per_second(total, now_ns);
     if (frames == 0 && shown->frames > 0) {
@@ -225,7 +225,7 @@ static void add_error(Lines *lines, const DipPaneFigures *figures, int pane) {
         add(lines, true, "Error", "measuring");
         return;
     }
-    // The truth is the mean of two halves with equal numbers of samples.
+    // The finest truth is the mean of two halves with DIP_TRUTH_SAMPLES samples each.
     const int all_samples = 2 * DIP_TRUTH_SAMPLES;
     if (result->last) {
         add(lines, true, "Error", "%d samples", result->samples);

@@ -13,7 +13,8 @@
 
 enum { DIP_TIMING_SAMPLES = 512 };
 
-// The newest frame times, in a ring. Zero-initialise.
+// The newest values of a series, mostly frame times, in a ring with the moments when they were
+// added. Zero-initialise.
 typedef struct DipTiming {
     int64_t at_ns[DIP_TIMING_SAMPLES];
     double ms[DIP_TIMING_SAMPLES];
@@ -30,8 +31,8 @@ double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns);
 // Returns the number of times added in the last second, at most DIP_TIMING_SAMPLES.
 int dip_timing_per_second(const DipTiming *timing, int64_t now_ns);
 
-// Copies the times added in the last `span_ns`, the newest first, and their age in nanoseconds
-// unless age_ns is NULL. Returns their number.
+// Copies the times added in the last `span_ns`, the newest first. Unless age_ns is NULL, also
+// writes how long ago each time was added. Returns the number of times.
 int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
                       double ms[DIP_TIMING_SAMPLES], int64_t age_ns[DIP_TIMING_SAMPLES]);
 
@@ -65,7 +66,7 @@ DipTaaSpeed dip_taa_pace_update(DipTaaPace *pace, bool on, const DipTiming *pres
 // Returns when the next frame is due. `due_ns` is when the previous frame was due, and `turn_ns` is
 // when this turn began. The next frame is due one refresh after `due_ns`, so that the mean rate is
 // exactly the display's. If that moment has passed already, or lies further ahead than one refresh,
-// it is due one refresh after `turn_ns`.
+// the frame is due one refresh after `turn_ns`.
 int64_t dip_taa_pace_next_ns(int64_t due_ns, int64_t turn_ns, int64_t refresh_ns, int64_t now_ns);
 
 // --- figures -------------------------------------------------------------------------------------
@@ -82,7 +83,7 @@ typedef struct DipPaneFigures {
     double ms;  // Median frame time of the last second in which frames were drawn.
     int frames; // Number of these frames; 1 if `ms` is the time of a single frame.
     double stage_ms[DIP_STAGE_COUNT];
-    int fps; // Pictures shown in the last second; 0 if no rate is shown.
+    int fps; // Pictures presented in the last second; 0 if no rate is shown.
     DipEffects effects;
     DipCounters counters;
     bool copied; // The pane shows the other pane's picture, since the settings are the same.
@@ -92,7 +93,7 @@ typedef struct DipPaneFigures {
                  // moved.
     DipTaaSpeed taa_speed; // `too_slow` is true only if the pane's patterns alternate.
     bool mip_colours;      // The pane shows mip colours, which have no error.
-    bool no_errors;        // The scene has no reference pictures, so the panel leaves errors out.
+    bool no_errors;        // Errors cannot be measured in this scene, so the panel leaves them out.
 } DipPaneFigures;
 
 // Zero-initialise.
@@ -103,7 +104,8 @@ typedef struct DipFigures {
     DipTiming dropped;    // When refreshes had no new picture; `ms` holds their number.
     int64_t presented_ns; // When the last picture was presented; 0 if nothing moved then.
     int64_t updated_ns;   // When the shown times were updated.
-    bool outdated;        // Settings have changed since the shown times were measured.
+    bool outdated;        // The shown times must be updated at once, as at the start and after new
+                          // settings.
     DipPaneFigures shown[DIP_PANE_COUNT]; // What the window shows.
 } DipFigures;
 
@@ -113,9 +115,9 @@ void dip_figures_forget(DipFigures *figures, int pane);
 // Returns whether each pane has at least one time since its settings changed.
 bool dip_figures_have_times(const DipFigures *figures);
 
-// Adds a frame. The frame's effects and counters show at once; its times show after
-// dip_figures_update. A pane that copied pixels from the other one in this frame is left out: its
-// time and its counters are not those of its settings.
+// Adds a frame. The frame's effects and counters show at once, and its times after
+// dip_figures_update. A pane that copied pixels from the other pane in this frame is left out,
+// since its time and its counters are not those of its settings.
 void dip_figures_add(DipFigures *figures, const DipSessionFrame *frame, int64_t now_ns);
 
 // Counts a presented picture, and the refreshes of the display that passed without a new picture

@@ -26,13 +26,15 @@ struct DipLivePrices {
     char processor[DIP_COST_TEXT];
 
     DipMeter meter;
-    uint8_t *rgba8;       // The picture to compare, rows packed. Owned; NULL without `meter`.
+    uint8_t *rgba8; // The picture to compare with the truth, rows packed. Owned; NULL until it is
+                    // needed.
     bool measures_errors; // A picture is being compared with the truth.
     bool errors_failed;
     int judged; // The report's row whose picture is compared.
-    // Errors of each row against the finest truth with which the row was compared.
+    // Errors of each row of the report against the finest truth with which the row was compared.
     DipMetricSums sums[DIP_PRICES_LIVE_ROWS];
-    int samples[DIP_PRICES_LIVE_ROWS]; // Samples of that truth; 0 if the row has no errors yet.
+    int samples[DIP_PRICES_LIVE_ROWS]; // Samples per pixel of that truth; 0 if the row has no
+                                       // errors yet.
     DipLiveTruth truth;                // The truth that dip_live_prices_step got last.
     int errors_left;         // Rows without errors against the truth; 0 if there is no truth.
     DipProcessorShare share; // Tells whether measuring errors waits for a processor.
@@ -148,7 +150,7 @@ static bool is_same_picture(const DipLivePicture *a, const DipLivePicture *b) {
 }
 
 // Returns whether the live report still has the right baseline. A cost report that was opened in
-// the meantime may have brought another one.
+// the meantime may have another baseline.
 static bool has_same_base(const DipLivePrices *live) {
     const DipQuality base = dip_prices_base(live->prices);
     return dip_quality_equal(&base, &dip_prices_live(live->prices)->options.baseline);
@@ -250,8 +252,8 @@ static bool show_errors(const DipLivePrices *live) {
     return dip_prices_update_live(live->prices, false, NULL);
 }
 
-// Draws the picture of a combination whose error is not known, or compares a part of this picture
-// with the truth. Returns whether new errors show (show_errors).
+// Draws the picture of a row whose error is not known, or goes on comparing the drawn picture with
+// the truth. Returns whether new errors show (show_errors).
 static bool step_errors(DipLivePrices *live) {
     if (!live->measures_errors) {
         begin_errors(live);
@@ -289,14 +291,14 @@ static bool has_truth(const DipLivePrices *live) {
            truth->height == live->picture.height;
 }
 
-// Takes the newest truth. If the truth has changed or moved in memory, the comparison that is under
-// way begins again.
+// Takes the newest truth. If the truth has changed or has moved in memory, a comparison that has
+// begun starts again.
 static void follow_truth(DipLivePrices *live, const DipLiveTruth *truth) {
     if (live->meter.standard.picture.rgba8 != truth->picture.rgba8) {
         live->measures_errors = false;
     }
     if (live->truth.samples != truth->samples) {
-        live->meter.standard.picture.rgba8 = NULL; // The memory holds another picture.
+        live->meter.standard.picture.rgba8 = NULL; // The same memory may hold another picture now.
         live->measures_errors = live->errors_failed = false;
     }
     live->truth = *truth;
@@ -318,7 +320,8 @@ static bool truth_draws(const DipLivePrices *live) {
 }
 
 // Writes "times: 12 steps left, 4 s", "errors: the converged picture is 40 % drawn", "errors: 3 of
-// 24", or "" if nothing is left.
+// 24", why prices cannot be measured, or "" if nothing is left. Adds that the work waits for a free
+// processor.
 static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
     const int count = dip_prices_live(live->prices)->row_count;
     bool waits = false;
@@ -338,7 +341,8 @@ static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
     }
 }
 
-// Tells the panel what is being measured, four times a second. Returns whether the text is new.
+// Tells the panel what is being measured, at most four times a second. Returns whether the text is
+// new.
 static bool show_progress(DipLivePrices *live) {
     const int64_t now_ns = dip_clock_ns();
     char text[DIP_PRICE_PROGRESS];

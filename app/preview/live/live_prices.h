@@ -15,7 +15,7 @@
 
 typedef struct DipLivePrices DipLivePrices;
 
-// The picture for which prices are measured. They hold for this picture only.
+// The picture for which prices are measured. The prices hold for this picture only.
 typedef struct DipLivePicture {
     DipPose pose;
     int64_t time_ns;
@@ -43,18 +43,18 @@ typedef struct DipLiveTruth {
     // The truth, with the live picture's size and pose. It has no pixels while there is no truth.
     DipSrgbPicture picture;
     int samples; // Samples per pixel. Errors against a finer truth replace the previous errors.
-    bool comes_first; // No frames are timed until there is a truth.
-    int next_samples; // Samples of the truth that is being drawn; 0 if there is none.
-    double drawn;     // How much of the next truth is drawn, from 0 to 1.
-    bool waits;       // The thread that draws the next truth waits for a free processor.
+    bool comes_first; // The first truth is drawn before frames are timed.
+    int next_samples; // Samples per pixel of the truth that is being drawn; 0 if there is none.
+    double drawn;     // How much of the truth that is being drawn is done, from 0 to 1.
+    bool waits;       // The thread that draws truths waits for a free processor.
 } DipLiveTruth;
 
 // If something is left to measure, measures for about budget_ms milliseconds, at least a frame or a
-// part of a comparison. First forgets the prices if the picture has changed. Errors against a
-// coarser truth stay until all errors against `truth` are known, because only errors against one
-// truth can be compared. Returns whether the panel must be drawn again, because prices or the text
-// of their progress (dip_prices_progress) have changed; the text changes four times a second at
-// most.
+// part of a comparison. First forgets the prices if the picture or the base of the prices has
+// changed. Errors against a coarser truth stay until all errors against `truth` are known, because
+// only errors against one truth can be compared. Returns whether the panel must be drawn again,
+// because prices or the text of their progress (dip_prices_progress) have changed; the text changes
+// four times a second at most.
 bool dip_live_prices_step(DipLivePrices *live, const DipLivePicture *picture,
                           const DipQuality quality[DIP_PANE_COUNT], const DipLiveTruth *truth,
                           double budget_ms);

@@ -21,7 +21,7 @@ enum {
 // A combination of the block that is being timed. The first member of a block is the base.
 typedef struct Member {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT]; // Counters of the last frame.
+    double counters[DIP_COST_COUNTER_COUNT]; // Counters of the member's last frame.
 } Member;
 
 struct DipPriceJob {
@@ -36,10 +36,10 @@ struct DipPriceJob {
     DipQuality wanted[DIP_PRICE_MAX_WANTED];
     int wanted_count;
     // Rounds that each wanted combination gets: DIP_PRICE_JOB_FIRST_ROUNDS until all combinations
-    // have had these, then DIP_PRICE_JOB_ROUNDS.
+    // have had these rounds, then DIP_PRICE_JOB_ROUNDS.
     int rounds;
 
-    DipDriver *driver; // Times the members; NULL if there is no block.
+    DipDriver *driver; // Times the members; NULL if no block is being timed.
     Member members[VISITS];
     int member_count;
     int rounds_before; // Rounds that the members had when the block began.
@@ -49,7 +49,7 @@ struct DipPriceJob {
     double drawn_ms;                     // Time of drawing all frames since dip_price_job_forget.
     int drawn;                           // Number of these frames.
     double waited;     // Share of a round's time that the threads waited, summed over all rounds.
-    int waited_rounds; // Number of these rounds.
+    int waited_rounds; // Number of the rounds in that sum.
 };
 
 static int64_t now_ns(const DipPriceJob *job) {
@@ -140,8 +140,8 @@ static void drop_block(DipPriceJob *job) {
 }
 
 // Temporal AA has one sample pattern for frames with even indices and one for odd indices. Each
-// round begins with the pattern that the previous round timed, so that the rounds time both in
-// turn.
+// round begins with the pattern that the previous round timed, so that the rounds time both
+// patterns in turn.
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipPriceJob *job = context;
     Member *member = &job->members[turn->subject];

@@ -2,16 +2,16 @@
 // nothing in the preview moves.
 //
 // The job times combinations of settings in blocks. A block holds the base (the settings that
-// prices start from) and a few combinations. Every round takes them in an order that is shuffled
-// anew. In a round, each combination draws one frame untimed, because the previous combination has
-// used the caches, and times the next frame. All times enter the log of the live report, from which
-// the times and prices are computed anew after each block. At first every combination gets three
-// rounds, so that all prices are soon known roughly; then each gets five more. The panes' own
-// settings come first, then most combinations by their distance from the requested settings
-// (dip_price_list_wanted).
+// prices start from) and a few combinations. Every round takes the combinations in an order that is
+// shuffled anew. In a round, each combination is drawn twice: first untimed, because the previous
+// combination has used the caches, and then timed. All times enter the log of the live report, from
+// which the times and prices are computed anew after each block. At first every combination gets
+// three rounds, so that all prices are soon known roughly; then each gets five more rounds. The
+// panes' own settings come first, then most combinations by their distance from the requested
+// settings (dip_price_list_wanted).
 //
-// The caller supplies the functions that draw and that tell the time, so that tests can replace
-// them.
+// The caller supplies the functions that draw and tell the time, so that tests can replace these
+// functions.
 #ifndef DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 #define DIP_APP_PREVIEW_LIVE_PRICE_JOB_H
 
@@ -32,8 +32,8 @@ typedef struct DipPriceJobCalls {
     // until dip_price_job_forget.
     bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
                  DipError *err);
-    int64_t (*now_ns)(void *context);          // NULL means dip_clock_ns.
-    DipThreadUse (*thread_use)(void *context); // NULL means the use of this process.
+    int64_t (*now_ns)(void *context);          // NULL: the job calls dip_clock_ns.
+    DipThreadUse (*thread_use)(void *context); // NULL: the job watches this process's threads.
     int threads;                               // Number of threads that draw a frame.
     void *context;
 } DipPriceJobCalls;
@@ -51,20 +51,21 @@ void dip_price_job_forget(DipPriceJob *job);
 // Drops the round that is being timed. Call it when something begins to move.
 void dip_price_job_interrupt(DipPriceJob *job);
 
-// Tells the job the panes' settings, by which it chooses the combinations to time. Combinations
-// that are known already are not timed again.
+// Tells the job the panes' settings, by which the job chooses the combinations to time.
+// Combinations that are known already are not timed again.
 void dip_price_job_follow(DipPriceJob *job, const DipQuality *current, const DipQuality *requested);
 
-// Draws frames until the budget is used up, at least one. Returns whether there are new prices.
+// Draws frames until the budget (in milliseconds) is used up or nothing is left; draws at least one
+// frame if one is left. Returns whether there are new prices.
 bool dip_price_job_step(DipPriceJob *job, double budget_ms);
 
 typedef struct DipPriceProgress {
     bool working;        // There are combinations left to time.
-    bool first;          // Some of them have not had their first rounds.
+    bool first;          // Some combinations have not had their first rounds.
     bool failed;         // A frame could not be drawn, or memory ran out.
     int rounds;          // Complete rounds of the present block.
-    int combinations;    // Combinations left, including those of the block.
-    double seconds_left; // Estimated time to draw them; 0 before the first frame.
+    int combinations;    // Combinations left to time, including those of the present block.
+    double seconds_left; // Estimated time to draw the rest; 0 before the first frame.
 } DipPriceProgress;
 
 DipPriceProgress dip_price_job_progress(const DipPriceJob *job);

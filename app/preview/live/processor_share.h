@@ -1,4 +1,4 @@
-// Notices that a thread waits for a processor, because other threads keep all of them busy.
+// Notices that a thread waits for a processor, because other threads keep all processors busy.
 #ifndef DIP_APP_PREVIEW_LIVE_PROCESSOR_SHARE_H
 #define DIP_APP_PREVIEW_LIVE_PROCESSOR_SHARE_H
 
