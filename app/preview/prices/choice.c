@@ -59,8 +59,8 @@ static void find_base(DipPreviewChoice *choice, const DipQuality *base) {
     }
 }
 
-// Finds the settings of the measured presets. They are at least as fast as the advised settings, so
-// they fit the budget as well.
+// Finds the settings of the measured presets. These are at least as fast as the advised settings,
+// so they keep within the budget as well.
 static void make_presets(DipPreviewChoice *choice) {
     const DipCandidate *advised = dip_preview_advised(choice);
     const DipCandidate *fastest =

@@ -9,8 +9,8 @@
 
 typedef enum DipChoiceState {
     DIP_CHOICE_NO_TIMES,  // Times are missing, so nothing can be chosen.
-    DIP_CHOICE_NO_ERRORS, // Errors are missing.
-    DIP_CHOICE_DISTURBED, // The times are wrong: the machine was too busy.
+    DIP_CHOICE_NO_ERRORS, // Errors are missing, so nothing can be chosen.
+    DIP_CHOICE_DISTURBED, // The times are wrong, because the machine was too busy.
     DIP_CHOICE_KNOWN
 } DipChoiceState;
 
@@ -24,7 +24,7 @@ typedef struct DipPreviewChoice {
     DipChoiceState state;
     bool live;                // The times come from live prices: they are mean times of this view.
     DipCandidates candidates; // Measured by the report, or priced from one picture.
-    int *front;               // The Pareto front (dip_front): indices of candidates. Owned.
+    int *front;               // Indices of the candidates on the Pareto front (dip_front). Owned.
     int front_count;
     // Index of the candidate with the base settings: those of the report's baseline, or the
     // defaults (dip_prices_base). -1 if no candidate has them.
@@ -32,16 +32,16 @@ typedef struct DipPreviewChoice {
     DipAdvice advice;                  // The advice for the budget.
     int presets[DIP_MEASURED_PRESETS]; // Indices of candidates, or -1 while nothing fits.
     // What the members above were computed from.
-    bool is_made;           // They have been computed.
-    unsigned price_changes; // dip_prices_changes at that time.
+    bool is_made;           // The members above have been computed.
+    unsigned price_changes; // dip_prices_changes when they were computed.
     bool of_like;           // The candidates depend on `like`.
-    DipQuality like;        // Settings of the requested pane.
-    DipCandidate *own_list; // The candidates' list if the choice owns it; otherwise NULL.
+    DipQuality like;        // The requested pane's settings when they were computed.
+    DipCandidate *own_list; // candidates.list if the choice owns it; otherwise NULL.
 } DipPreviewChoice;
 
 // Computes the choice again if the prices or the budget have changed, or if the candidates depend
-// on `like` and it has changed. prices may be NULL. like: the settings of the requested pane.
-// Returns whether the choice was computed.
+// on `like` and it has changed. prices: NULL if nothing is priced. like: the settings of the
+// requested pane. Returns whether the choice was computed.
 bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const DipQuality *like,
                         double budget_ms);
 
@@ -49,7 +49,8 @@ bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const
 void dip_preview_choice_set_budget(DipPreviewChoice *choice, double budget_ms);
 void dip_preview_choice_free(DipPreviewChoice *choice);
 
-// Returns the settings that are advised for the budget, or NULL if none are.
+// Returns the candidate that is advised for the budget. Returns NULL if nothing is advised or
+// choice is NULL.
 const DipCandidate *dip_preview_advised(const DipPreviewChoice *choice);
 
 // Writes why nothing is advised: what is still being measured, followed by `progress`; that the
@@ -57,8 +58,8 @@ const DipCandidate *dip_preview_advised(const DipPreviewChoice *choice);
 void dip_preview_choice_why(const DipPreviewChoice *choice, const char *progress, char *text,
                             size_t size_bytes);
 
-// Writes the advice as a line: "Within 16.7 ms: 11.2 ms p95, FLIP .0451, fits with 99 %; baseline
-// 6.5 ms, .0773".
+// Writes the advice, or why nothing is advised, as a line: "Within 16.7 ms: 11.2 ms p95, FLIP
+// .0451, fits with 99 %; baseline 6.5 ms, .0773".
 void dip_preview_choice_describe(const DipPreviewChoice *choice, char *text, size_t size_bytes);
 
 #endif

@@ -105,8 +105,8 @@ void dip_costs_free(DipCostReport **report) {
     }
 }
 
-// A report measures all steps of adaptive AA with the same number of samples. The pane is at such a
-// step only if it has this number of samples, too, and, while adaptive AA is on, the same group
+// A report measures all steps of adaptive AA with the same number of samples. A pane has such a
+// step only if it also has this number of samples and, while adaptive AA is on, the same group
 // size.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality) {
     const DipQuality *at = &row->steps[step].quality;

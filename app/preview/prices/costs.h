@@ -8,11 +8,11 @@
 // One step (value) of a setting.
 typedef struct DipCostsStep {
     DipQuality quality;
-    char name[24];      // Name of the step: "4".
+    char name[24];      // Name of the step, such as "4".
     char time[16];      // Time relative to the baseline, "1.56x", or "1.6x?" if it is doubtful; ""
                         // if it is not known.
-    char flip[16];      // Change of FLIP, "-.0107"; "" if it is not known.
-    char figures[32];   // Time and change of FLIP: "1.56x -.0107".
+    char flip[16];      // Change of FLIP from the baseline, "-.0107"; "" if it is not known.
+    char figures[32];   // `time` and `flip` with a blank between them: "1.56x -.0107".
     double flip_change; // Change of FLIP as a number; 0 for the baseline, NAN if it is not known.
 } DipCostsStep;
 
@@ -37,14 +37,14 @@ void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]
 DipCostsRow dip_costs_row(const DipCostReport *report, const DipCostSweep *sweep);
 void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
-// Returns whether a pane's settings include the given step of the row's setting. In a row of
-// adaptive AA, they must also have the step's number of samples and, while adaptive AA is on, its
-// group size.
+// Returns whether a pane's settings include the given step of the row's setting. In the rows of
+// adaptive AA and of its group size, the settings must also have the step's number of samples and,
+// while adaptive AA is on, the step's group size.
 bool dip_costs_is_at(const DipCostsRow *row, int step, const DipQuality *quality);
 
 // Reads a cost report that `diptych cost` wrote. `file` is the JSON file, or the folder that has it
 // as cost.json. `prices`, unless it is NULL, borrows the report until it gets another one. The
-// caller frees the report. Returns NULL on failure: with the errors of dip_cost_read_report, with
+// caller frees the report. Returns NULL on failure: with an error of dip_cost_read_report, with
 // MEMORY, or with CONFLICT if the report's scene is not `scene`.
 DipCostReport *dip_costs_load(DipPrices *prices, const char *file, const char *scene,
                               DipError *err);

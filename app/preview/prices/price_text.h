@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// The mark before times that come from a few frames.
+// The mark before rough times, which come from a few frames.
 #define DIP_ROUGH_MARK "\u2248 "
 
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
@@ -21,16 +21,17 @@ const char *dip_step_explanation(DipSetting setting, int step);
 void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a price's time without its unit, by its trust: "+1.2", "≈ +1.2" if it is rough, "~+1.2" if
-// a model predicts it, "+1?" if it is doubtful, "≈ 0", or "base". If it is unknown, writes dots, or
-// a dash if the setting has no effect without another setting. Rounding never carries the whole
-// time with the step over the budget.
+// a model predicts it, "+1?" if it is doubtful, "≈ 0", or "base". If the time is unknown, writes
+// dots, or a dash if the setting has no effect without another setting. Rounding never carries the
+// whole time with the step over the budget.
 void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes a FLIP error without the zero before the point: ".0354", and a change with its sign.
+// Writes a FLIP error without the zero before the point: ".0354". If `change` is true, the number
+// is a change and gets a sign.
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]);
 
-// Writes a price's error. If it is unknown, writes dots, or a dash if the setting has no effect
-// without another setting.
+// Writes a price's FLIP as dip_flip_text does. If FLIP is unknown, writes dots, or a dash if the
+// setting has no effect without another setting.
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes the tip of a step: what the step does, and its price, which the steps of mipdebug lack.

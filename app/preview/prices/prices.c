@@ -9,7 +9,7 @@
 #include <string.h>
 
 struct DipPrices {
-    DipPriceView *read;     // View of the report that was read; NULL if there is none.
+    DipPriceView *read;     // View of the report that was read from a file; NULL if there is none.
     DipCostReport measured; // The live report.
     DipPriceView *live;     // View of `measured`.
     bool prefers_live;
@@ -97,8 +97,8 @@ static bool begin_live(DipPrices *prices, DipError *err) {
     report->options.budget_of = DIP_TIME_MEAN;
     report->machine.settled = true;
     report->path_count = 1;
-    report->rounds = report->options.rounds = 1; // 0 would mean that the report has no times.
-                                                 // Adding times raises the number.
+    // A report with 0 rounds counts as one without times. Logging times raises the number.
+    report->rounds = report->options.rounds = 1;
     report->rows = calloc(DIP_PRICES_LIVE_ROWS, sizeof *report->rows);
     return (report->rows || out_of_memory(err)) && dip_cost_report_alloc(report, err);
 }
@@ -136,7 +136,8 @@ void dip_prices_forget_live(DipPrices *prices) {
     ++prices->changes;
     dip_cost_report_free(&prices->measured);
     prices->measured.options.baseline = base;
-    dip_price_view_update(prices->live, NULL); // The report has no rows now.
+    // A failure does no harm, since the report has no rows now.
+    dip_price_view_update(prices->live, NULL);
 }
 
 // --- what is used --------------------------------------------------------------------------------

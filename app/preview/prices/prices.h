@@ -12,8 +12,9 @@ typedef struct DipPrices DipPrices;
 DipPrices *dip_prices_create(DipError *err);
 void dip_prices_destroy(DipPrices **prices);
 
-// The scene of the panes and the machine that draws them. Strings are borrowed until the conditions
-// are set again. A member that is NULL or 0 is not known, and is not compared with the report.
+// The scene that the panes show, and the machine that draws the panes. Strings are borrowed until
+// the conditions are set again. A member that is NULL or 0 is not known, and is not compared with
+// the report.
 typedef struct DipPriceConditions {
     const char *scene;     // As dip_cost_scene_name names it.
     const char *processor; // As dip_machine_processor names it.
@@ -31,19 +32,19 @@ void dip_prices_set_viewing(DipPrices *prices, double pixels_per_degree);
 // or else those of the report, or else DIP_FLIP_PIXELS_PER_DEGREE.
 double dip_prices_viewing(const DipPrices *prices);
 
-// Takes prices from a report, which is borrowed until another one is set. On failure there are no
-// prices from a report. Fails with MEMORY.
+// Takes prices from a report, which is borrowed until another one is set. After a failure, prices
+// have no report. Fails with MEMORY.
 bool dip_prices_set_report(DipPrices *prices, const DipCostReport *report, DipError *err);
 bool dip_prices_has_report(const DipPrices *prices);
 
-// Returns whether there is a report and it is of another scene than the conditions name.
+// Returns whether there is a report, and its scene is another one than the conditions name.
 bool dip_prices_are_of_other_scene(const DipPrices *prices);
 
 // Sets whether live prices are used although there is a report. A user wants this if the report is
 // stale (dip_prices_source). Without a report, live prices are always used.
 void dip_prices_prefer_rough(DipPrices *prices, bool prefer);
 
-// Returns whether the prices are live, so that it is worth measuring.
+// Returns whether the prices come from the live report, so that measuring is worthwhile.
 bool dip_prices_are_rough(const DipPrices *prices);
 
 // Returns the view of the report that the prices come from now.
@@ -60,8 +61,8 @@ DipCostReport *dip_prices_live(DipPrices *prices);
 // same pictures. Returns -1 if there is none.
 int dip_prices_find_live(const DipPrices *prices, const DipQuality *quality);
 
-// Returns the same index, but adds a row if there is none. Returns -1 on failure: MEMORY, also if
-// all DIP_PRICES_LIVE_ROWS are in use.
+// Returns the same index, but adds a row if there is none. Fails with MEMORY, also if all
+// DIP_PRICES_LIVE_ROWS rows are in use, and then returns -1.
 enum { DIP_PRICES_LIVE_ROWS = 256 };
 int dip_prices_live_row(DipPrices *prices, const DipQuality *quality, DipError *err);
 
@@ -89,7 +90,7 @@ DipPriceSum dip_prices_sum(const DipPrices *prices, const DipQuality *quality);
 // Returns whether all times are doubtful, because the machine was too busy while they were taken.
 bool dip_prices_are_doubtful(const DipPrices *prices);
 
-// Says where the prices come from and for what they hold: "Prices: report of this scene, path
+// Writes where the prices come from and for what they hold: "Prices: report of this scene, path
 // DEFAULT, 640x480, 2 threads. The panes are 320x240." width and height: size of a pane in pixels.
 // Returns whether the prices are stale: the size, scene, threads, machine, instruction set or
 // viewing distance differ from those of the panes. Live prices are never stale.
