@@ -1,7 +1,7 @@
 // Declares the advice tab: the best settings for a time budget, what the next better settings cost,
-// and a plot of all settings that can be chosen. With live prices, words about cost reports take
-// the place of the last two. Everything else comes from the preview's choice (prices/choice.h),
-// which is computed from a cost report or from live prices (prices.h).
+// and a plot of all settings that can be chosen. With live prices, a text about cost reports takes
+// the place of the next better settings and of the plot. Everything else comes from the preview's
+// choice (prices/choice.h), which is computed from a cost report or from live prices (prices.h).
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -33,8 +33,8 @@ static DipUiId id_of(int index) {
     return DIP_UI_ID(DIP_UI_ADVICE, index);
 }
 
-// Writes a line at the top of *room and cuts it off with a gap. Leaves out a line that does not
-// fit.
+// Writes a line at the top of *room, and cuts the line and a gap off *room. Leaves out a line that
+// does not fit.
 __attribute__((format(printf, 5, 6))) static void
 write_line(DipUi *ui, int size, DipColour colour, DipRect *room, const char *format, ...) {
     char text[200];
@@ -58,7 +58,7 @@ static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality
 
 // --- the advice ----------------------------------------------------------------------------------
 
-// Declares a button for each budget at the top of *room, and cuts the buttons off.
+// Declares a button for each budget at the top of *room, and cuts the buttons off *room.
 static void declare_budgets(DipUi *ui, DipWindow *window, DipRect *room) {
     DipPreviewState *state = window->state;
     double list[DIP_COST_MAX_BUDGETS];
@@ -80,7 +80,7 @@ static void declare_budgets(DipUi *ui, DipWindow *window, DipRect *room) {
 }
 
 // Writes the figures of the advised settings, the settings themselves, and a warning if the report
-// was measured at another size than the panes'.
+// was measured at another size than the panes have.
 static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate *advised,
                           DipRect *room) {
     const DipPreviewChoice *choice = window->state->choice;
@@ -196,9 +196,9 @@ static const DipCandidate *next_faster(const DipPreviewChoice *choice,
     return found;
 }
 
-// Declares a button that tries other settings, at the top of *room, and cuts it off with a gap.
-// `to`: these settings, or NULL if there are none. up: true if they are better and slower than the
-// advised ones.
+// Declares a button that tries other settings, at the top of *room, and cuts the button and a gap
+// off *room. to: the other settings, or NULL if there are none. up: true if these settings are
+// better and slower than the advised ones, false if they are worse and faster.
 static void declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advised,
                          const DipCandidate *to, bool up, DipRect *room) {
     const int pad = dip_ui_px(ui, 8), radius = dip_ui_px(ui, 4);
@@ -263,7 +263,8 @@ static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     dip_ui_text_block(ui, NOTE_SIZE, dip_style_dim, room, heading);
 }
 
-// Says how to make a cost report, which measures combinations of settings along whole camera paths.
+// Writes how to make a cost report, which measures combinations of settings along whole camera
+// paths.
 static void write_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
     char text[2 * DIP_SCENE_WORDS_BYTES + 512];
     snprintf(text, sizeof text,
@@ -324,8 +325,8 @@ static void draw_dot(DipUi *ui, const Plot *plot, const DipCandidate *point, int
     dip_ui_fill_round(ui, disc, size / 2, colour);
 }
 
-// Draws the Pareto front as stairs. The height at each time is the least error of the settings on
-// the front that take at most this time.
+// Draws the Pareto front as stairs. At each time, the stairs are as high as the least error of the
+// settings on the front that take at most this time.
 static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choice) {
     const int thick = dip_ui_px(ui, 1);
     const DipCandidate *last = NULL;
@@ -342,8 +343,8 @@ static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choi
     }
 }
 
-// Draws about four round numbers along each axis, and lines across the plot at those of the error
-// axis.
+// Draws about four round numbers along each axis, and lines across the plot at the numbers of the
+// error axis.
 static void draw_axes(DipUi *ui, const Plot *plot) {
     const int line = dip_ui_line_height(ui, NOTE_SIZE), gap = dip_ui_px(ui, 4);
     const int room = dip_ui_px(ui, 60);

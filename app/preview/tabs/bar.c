@@ -10,8 +10,9 @@
 
 #include <stdio.h>
 
-// Numbers of buttons at the bar's right end. TAIL_FOLD: only the button that folds the panel.
-// TAIL_HELP: help, too. TAIL_ALL: the buttons for "panes only" and the full screen, too.
+// Numbers of buttons at the bar's right end. TAIL_FOLD counts only the button that folds the panel,
+// TAIL_HELP also the button for help, and TAIL_ALL also the buttons for "panes only" and the full
+// screen.
 enum { TAIL_FOLD = 1, TAIL_HELP = 2, TAIL_ALL = 4 };
 enum { TAB_SIZE = 13, TAB_PAD = 11, BUTTON = 28, ICON_TAB = 32, LEAST_LINE = 60, MOST_LINE = 270 };
 
@@ -43,12 +44,12 @@ static const char *const tab_tips[DIP_TAB_COUNT] = {
 typedef struct Bar {
     DipRect rect;
     int button; // Width of a button.
-    bool words; // Tabs show their names, otherwise symbols.
+    bool words; // The tabs show their names; otherwise they show symbols.
     int tab_width[DIP_TAB_COUNT];
     int tabs_width;
-    int tail;        // Number of buttons at the right end. The last one folds the panel.
+    int tail;        // Number of buttons at the right end. The last button folds the panel.
     int play;        // Number of playback buttons: 3, 1 or 0.
-    int line;        // Width of the time line, or 0.
+    int line;        // Width of the time line, or 0 if there is none.
     char place[128]; // Says where the camera is.
     int place_width; // Room for `place`, or 0 if it does not show.
 } Bar;
@@ -95,7 +96,8 @@ static void format_place(const DipPreviewState *state, int category, bool brief,
                          char *text, size_t size_bytes) {
     const double seconds = 1e-9 * (double)path_ns;
     const double length = 1e-9 * (double)dip_preview_path_length_ns(state);
-    const int decimals = state->paused ? 2 : 1; // So that a step by one frame changes the text.
+    // In a pause, two decimals show a step by one frame.
+    const int decimals = state->paused ? 2 : 1;
     if (state->manual) {
         snprintf(text, size_bytes, "Free camera");
     } else if (state->scene_title) {
@@ -154,7 +156,7 @@ static void share_room(const DipUi *ui, const DipPreviewState *state, Bar *bar, 
     room -= bar->play * bar->button;
     bar->place_width = room >= place_width ? place_width : 0;
     room -= bar->place_width;
-    // While the camera is free, the time line does not show, but its room stays empty.
+    // While the camera is free, the time line does not show, and its room stays empty.
     const bool has_line = dip_preview_path_length_ns(state) > 0;
     bar->line =
         has_line && room >= dip_ui_px(ui, LEAST_LINE) ? dip_min(room, dip_ui_px(ui, MOST_LINE)) : 0;
@@ -219,7 +221,8 @@ static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
         const DipUiInput input = dip_ui_control(
             ui, &(DipUiControl){.id = bar_id(BAR_TABS + t), .rect = rect, .tip = tip});
         draw_ring(ui, rect, &input);
-        if (input.pressed && !chosen) { // A second click must not fold what the first one opened.
+        // A second click must not fold the tab that the first click has opened.
+        if (input.pressed && !chosen) {
             dip_preview_act(window->state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
             chosen = true;
         }
@@ -257,7 +260,7 @@ static void declare_playback(DipUi *ui, DipWindow *window, const Bar *bar, DipRe
     }
 }
 
-// Moves the time to where the pointer is on the line.
+// Moves the time to the place of the pointer on the time line.
 static void seek(DipPreviewState *state, const DipUiInput *input, DipRect rect) {
     const int64_t length_ns = dip_preview_path_length_ns(state);
     double share = rect.width > 1 ? (double)(input->x - rect.x) / (rect.width - 1) : 0.0;
@@ -265,7 +268,8 @@ static void seek(DipPreviewState *state, const DipUiInput *input, DipRect rect) 
     dip_preview_seek_path(state, (int64_t)(share * (double)length_ns));
 }
 
-// Declares the line of the path's time, on which a click or a drag moves the time.
+// Declares the time line: a line for the time on the path, on which a click or a drag moves the
+// time.
 static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
     const DipUiInput input =

@@ -9,17 +9,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// SMALL and TINY are sizes of letters. All lengths are at scale 1.
+// SMALL and TINY are letter sizes. All sizes and lengths are at scale 1.
 enum {
     SMALL = 11,
     TINY = 10,
-    STRIP_LEAST = 44, // From this height on, the room below the buttons shows thumbnails.
+    STRIP_LEAST = 44, // Least height of the room below the buttons that shows thumbnails.
     STRIP_MOST = 96,  // Greatest height of a thumbnail.
 };
 
 enum { ID_COMPARISON, ID_LEFT = 10, ID_OPTION = 16, ID_DIVIDER = 32, ID_THUMBNAIL = 40 };
 
-// Declares the choice of what the requested pane is compared with.
+// Declares the choice of the picture with which the requested pane is compared.
 static void declare_left(DipFlow *flow) {
     DipToolState *tools = &flow->window->state->tools;
     const DipErrorReading *errors = &flow->window->figures[DIP_PANE_CURRENT].errors;
@@ -43,7 +43,7 @@ static void declare_left(DipFlow *flow) {
     dip_flow_text(flow, dip_style_soft, text);
 }
 
-// Declares a slider that moves the divider between both pictures.
+// Declares a slider that moves the wipe's divider.
 static void declare_divider(DipUi *ui, DipToolState *tools, DipRect rect) {
     const DipUiInput input =
         dip_ui_stepper(ui, DIP_UI_ID(DIP_UI_COMPARE, ID_DIVIDER), rect,
@@ -140,7 +140,7 @@ static void declare_alone(DipFlow *flow) {
     }
 }
 
-// Declares the options of the comparison, or says what it shows.
+// Declares the options of the chosen comparison, or writes what the comparison shows.
 static void declare_options(DipFlow *flow) {
     const bool known = flow->window->truth != NULL;
     switch (flow->window->state->tools.comparison) {

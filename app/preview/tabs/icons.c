@@ -6,8 +6,9 @@
 
 enum { GRID = 16, TRIANGLE = 10, LETTERS = 13, MAX_STROKES = 9 };
 
-// END ends a list of strokes. BOX fills a rectangle: x, y, width, height. RING outlines a circle
-// within a square: x, y, side. LINE goes from one point to another: x0, y0, x1, y1.
+// END ends a list of strokes. BOX is a filled rectangle: x, y, width, height. RING is the outline
+// of a circle in a square: x, y, side. LINE goes from one point to another: x0, y0, x1, y1. All
+// numbers are units of the grid.
 typedef enum StrokeKind { END, BOX, RING, LINE } StrokeKind;
 
 typedef struct Stroke {

@@ -1,5 +1,5 @@
-// Draws the labels over the panes, and notices. Finds the time of a pane (tabs.h), which the labels
-// and the panel show.
+// Draws the labels over the panes, and the notice. Finds the time of a pane (tabs.h), which the
+// labels and the panel show.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
@@ -56,8 +56,8 @@ void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TI
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
 // Writes the time of a pane: "4.6 ms  60 fps", "4.6 ms along the path  60 fps", or "one frame: 44.0
-// ms", or that the pane is a copy. If frames come too slowly for temporal antialiasing, says so
-// instead.
+// ms". Writes instead that the pane is a copy, or that frames come too slowly for temporal
+// antialiasing.
 static void format_time(const DipWindow *window, int pane, char *text, size_t size_bytes) {
     const DipPaneFigures *figures = &window->figures[pane];
     const DipPriceSum sum = dip_pane_sum(window, pane);
@@ -76,7 +76,7 @@ static void format_time(const DipWindow *window, int pane, char *text, size_t si
     }
 }
 
-// What a label says: a title, the time or a warning beside it, and the settings.
+// What a label says: a title, the time or a warning, and the settings.
 typedef struct Label {
     const char *title;
     char time[96];
@@ -110,10 +110,10 @@ static int height_below(const DipUi *ui, int room, const char *text, int above, 
     return 3 * (above + height) > pane_height ? 0 : height;
 }
 
-// Draws a label, in one line if it fits, with the settings in brief if need be. Otherwise, the
-// settings go to lines of their own. If the time still does not fit, it goes to lines of its own
-// too, above the settings, because it may be a warning. Lines with which the label would be taller
-// than a third of the pane are left out.
+// Draws a label in one line if it fits, with the settings in brief if they do not fit in full.
+// Otherwise, the settings go to lines of their own. If the time still does not fit, it goes to
+// lines of its own above the settings, because it may be a warning. Lines with which the label
+// would be taller than a third of the pane are left out.
 static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect rect = dip_compare_visible(window, pane);
     const bool edited = window->state->edited[pane];
@@ -129,7 +129,8 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
              window->figures[pane].fps > 0 ? "  60 fps" : "");
     const int usual = dip_ui_text_width(ui, LABEL_SIZE, usual_time);
     const int own = dip_ui_text_width(ui, LABEL_SIZE, label.time);
-    const int time_width = dip_max(own, usual) + pad; // Changing digits do not move the settings.
+    // At least the usual width, so that changing digits do not move the settings.
+    const int time_width = dip_max(own, usual) + pad;
     int width = title_width + time_width + dip_ui_text_width(ui, LABEL_SIZE, label.settings);
     if (width > room) {
         dip_preview_describe(&window->state->quality[pane], true, label.settings,

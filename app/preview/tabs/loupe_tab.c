@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// TEXT, SMALL and TINY are sizes of letters. All lengths are at scale 1.
+// TEXT, SMALL and TINY are letter sizes. All sizes and lengths are at scale 1.
 enum {
     TEXT = 12,
     SMALL = 11,
@@ -31,7 +31,7 @@ typedef struct Part {
     const DipSamplePattern *pattern;
     const DipSampleValue *samples; // NULL if the pixel's samples are not known.
     DipColour pixel;
-    DipColour own; // The pane's colour.
+    DipColour own; // The colour that stands for the pane.
     DipRect rest;  // The room below the lines of text so far.
 } Part;
 
@@ -85,7 +85,7 @@ static void say_samples(Part *part) {
     }
 }
 
-// Shows the first of several texts that fits, or the last one.
+// Shows the first of several texts that fits or, if none fits, the last one.
 static void say_fitting(Part *part, const char *const *texts, int count) {
     int i = 0;
     while (i < count - 1 && dip_ui_text_width(part->ui, SMALL, texts[i]) > part->rest.width) {
@@ -94,7 +94,7 @@ static void say_fitting(Part *part, const char *const *texts, int count) {
     dip_ui_line(part->ui, SMALL, dip_style_soft, &part->rest, "%s", texts[i]);
 }
 
-// Says how many samples the pixel has and what they show.
+// Writes how many samples the pixel has and what they show.
 static void say_count(Part *part) {
     const int count = part->pattern->count;
     const bool temporal = dip_quality_alternates(&part->window->state->quality[part->pane]);
@@ -175,8 +175,8 @@ static void draw_box(Part *part, DipRect rect) {
     }
 }
 
-// Shows the figures beside or beneath a crop. If there is room, also shows the pixel's box
-// (loupe.h), which is a picture of the pixel with its samples.
+// Shows the pixel's figures beside or beneath a crop. If there is room, also shows the box
+// (loupe.h), a picture of the pixel with its samples.
 static void show_details(Part *part, DipRect rect) {
     DipUi *ui = part->ui;
     const DipToolState *tools = &part->window->state->tools;
@@ -213,8 +213,8 @@ static void show_details(Part *part, DipRect rect) {
     }
 }
 
-// Shows the figures beneath a crop in a narrow tab: three lines, and the samples' colours if there
-// is room for them.
+// Shows the pixel's figures beneath a crop in a narrow tab: three lines, and the samples' colours
+// if there is room for them.
 static void show_brief(Part *part, DipRect rect) {
     DipUi *ui = part->ui;
     const DipToolState *tools = &part->window->state->tools;
@@ -228,7 +228,7 @@ static void show_brief(Part *part, DipRect rect) {
              c->green, c->blue);
     if (dip_ui_text_width(ui, SMALL, pixel) + dip_ui_text_width(ui, SMALL, rgb) + 2 * gap >
         rect.width) {
-        rgb[7] = '\0'; // Keeps only the hexadecimal code.
+        rgb[7] = '\0'; // Keeps only the hexadecimal colour.
     }
     dip_ui_text(ui, SMALL, dip_style_white, DIP_ALIGN_RIGHT, dip_rect_right(rect) - gap, rect.y,
                 rect.width, rgb);
@@ -316,7 +316,8 @@ static void draw_crop(Part *part, DipRect area) {
     handle_crop(part, &content.crop);
 }
 
-// Divides a pane's part of the tab between the crop and the figures. Leaves out what does not fit.
+// Divides a pane's part of the tab between the crop and the figures. Leaves out figures that do not
+// fit.
 static void declare_part(DipUi *ui, DipWindow *window, int pane, DipRect rect) {
     const DipToolState *tools = &window->state->tools;
     Part part = {.ui = ui,
@@ -350,8 +351,8 @@ static void declare_part(DipUi *ui, DipWindow *window, int pane, DipRect rect) {
 
 // --- the tab -------------------------------------------------------------------------------------
 
-// Declares a button at the left end of *row, and cuts it off. Leaves out a button that does not
-// fit. Returns whether it was pressed.
+// Declares a button at the left end of *row, and cuts the button off *row. Leaves out a button that
+// does not fit. Returns whether it was pressed.
 static bool row_button(DipUi *ui, int id, DipRect *row, int padding, const char *text, bool chosen,
                        const char *tip) {
     const int width = dip_ui_text_width(ui, TEXT, text) + 2 * padding;

@@ -1,6 +1,6 @@
-// Explains the map in the maps' tab. Draws a scale of the map's colours with the distribution of
-// the values, or a key of the colours. Also draws tables of the whole frame, and of the pixel or
-// the tile under the mouse or at the pinned pixel.
+// Explains the chosen map in the maps' tab. Draws a scale of the map's colours with the
+// distribution of the map's values, or a key of the colours. Also draws a table of the whole frame,
+// and one of the pixel or the tile under the mouse or at the pinned pixel.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/map_colours.h"
@@ -27,7 +27,7 @@ static DipColour colour_of(DipMap map, float share) {
 
 // --- the scale -----------------------------------------------------------------------------------
 
-// Counts the map's values of a pane in CHART_BINS equal bins from 0 to `end`. The last bin also
+// Counts a pane's values in the map, in CHART_BINS equal bins from 0 to `end`. The last bin also
 // counts the values beyond `end`. Returns whether the values are known.
 static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
@@ -193,7 +193,7 @@ static void scale_legend(const Tab *tab, DipRect rest) {
 
 // --- keys ----------------------------------------------------------------------------------------
 
-// Draws a square of a colour with words beside it. down: distance from the area's top, at scale 1.
+// Draws a square of a colour with a text beside it. down: distance from the area's top, at scale 1.
 static void draw_key(const Tab *tab, DipRect area, int down, DipColour colour, const char *text) {
     const int side = px(tab, 14), thin = px(tab, 2);
     area.y += px(tab, down) + thin;
@@ -256,7 +256,7 @@ void dip_maps_legend_block(const Tab *tab, DipRect area) {
 
 typedef enum Comparison { NOT_COMPARED, BY_FACTOR, IN_PER_CENT } Comparison;
 
-// The rows of two tables of work. `name` and `format` are for the table of the whole frame;
+// The rows of the two tables of work. `name` and `format` are for the table of the whole frame;
 // `tile_name` and `tile_format` are for the table of one tile.
 static const struct {
     DipMap map;
@@ -270,9 +270,9 @@ static const struct {
                  {DIP_MAP_SAMPLES, "mixed pixels", "%.0f", "mixed pixels", "%.0f"}};
 enum { WORK_ROWS = sizeof work_rows / sizeof *work_rows };
 
-// Writes a row of a table: a name, both panes' values and how they compare. Values below 0 are not
-// known and are left out. With IN_PER_CENT, the colour says whether the change is better or worse;
-// a smaller value is better.
+// Writes a row of a table: a name, both panes' values and their comparison. A value below 0 is not
+// known and is left out. With IN_PER_CENT, the colour says whether the change is better or worse; a
+// smaller value is better.
 static void put_row(const Tab *tab, DipRect area, int index, const char *name, const char *format,
                     const double values[DIP_PANE_COUNT], Comparison comparison) {
     const int ends[DIP_PANE_COUNT] = {px(tab, 152), px(tab, 216)};
@@ -374,8 +374,8 @@ void dip_maps_frame_block(const Tab *tab, DipRect area) {
 
 // --- under the mouse -----------------------------------------------------------------------------
 
-// Shows a pane's value at a pixel in words, beside a square that has the value's colour and a
-// border in the pane's colour.
+// Writes a pane's value at a pixel, beside a square that has the value's colour and a border in the
+// pane's colour.
 static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
                        const char *value) {
     const int side = px(tab, 22), gap = px(tab, 8);

@@ -29,8 +29,8 @@ static const DipMap map_order[] = {DIP_MAP_TIME,    DIP_MAP_FRAGMENTS, DIP_MAP_P
                                    DIP_MAP_SAMPLES, DIP_MAP_MIPS,      DIP_MAP_FLIP};
 enum { MAP_BUTTONS = sizeof map_order / sizeof *map_order };
 
-// Declares a button for each map in two columns, or more if the dock is low. Returns the room
-// below.
+// Declares a button for each map, in two columns, or in more columns if the dock is low. Returns
+// the room below the buttons.
 static DipRect map_buttons(const Tab *tab, DipRect area) {
     const int gap = px(tab, BUTTON_GAP), pitch = px(tab, BUTTON + BUTTON_GAP);
     int columns = 2;
@@ -102,14 +102,16 @@ void dip_tab_maps(DipUi *ui, DipWindow *window, DipRect body) {
                   {TABLE_WIDTH, 152, dip_maps_frame_block}};
     const Tab tab = {ui, window, &window->tools->maps, &window->state->tools};
     const int margin = px(&tab, MARGIN);
-    DipRect rest = dip_rect_inset(body, margin, margin); // Room from the present row downwards.
+    // The room from the present row of blocks downwards.
+    DipRect rest = dip_rect_inset(body, margin, margin);
     rest.height += margin;
     DipRect row = rest;
     int row_height = 0;
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
         const int width = dip_min(px(&tab, blocks[i].width), rest.width);
         int height = px(&tab, blocks[i].height);
-        height = i == 0 ? dip_min(height, rest.height) : height; // The buttons show in any height.
+        // The block of buttons shows in any height.
+        height = i == 0 ? dip_min(height, rest.height) : height;
         if (width > row.width && row_height > 0) {
             dip_cut_top(&rest, row_height + margin);
             row = rest;
@@ -155,7 +157,8 @@ static DipRect tile_rect(const Tab *tab, int pane, const DipMapWork *work, int t
 static void draw_numbers(const Tab *tab, int pane) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     const int height = dip_ui_line_height(tab->ui, NOTE);
-    const int shifts[] = {px(tab, 1), -px(tab, 1), 0}; // Two shadows, and the text above them.
+    // Offsets of two shadows and of the text, which is drawn last.
+    const int shifts[] = {px(tab, 1), -px(tab, 1), 0};
     for (int t = 0; t < work->across * work->down; t++) {
         const DipRect rect = tile_rect(tab, pane, work, t);
         char text[16];
@@ -188,7 +191,8 @@ static void draw_cross(const Tab *tab, int pane, int x, int y) {
     }
 }
 
-// Frames the block of pixels with the greatest mean FLIP, and writes this FLIP beside it.
+// Draws a frame around the block of pixels with the greatest mean FLIP, and writes this FLIP beside
+// the frame.
 static void draw_worst_block(const Tab *tab, int pane) {
     const DipErrorPictures *errors = tab->maps->errors;
     if (!errors || !errors->flip[pane] || errors->spread[pane].tail.worst <= 0.0) {
@@ -216,7 +220,7 @@ static void draw_worst_block(const Tab *tab, int pane) {
                 strip.y + edge, width, text);
 }
 
-// Marks the pixel that the tab describes, or its tile.
+// Marks the pixel that the tab describes or, in a map of work, the pixel's tile.
 static void draw_described(const Tab *tab, int pane) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     int x, y;
@@ -234,8 +238,8 @@ static void draw_described(const Tab *tab, int pane) {
     dip_ui_outline(tab->ui, inner, 0, px(tab, 3), dip_style_of_pane(pane));
 }
 
-// If a map is missing or not final, says at the foot of the pane which map was chosen, and why it
-// is missing or what it still waits for.
+// If a map is missing or not final, writes at the foot of the pane which map was chosen, and why it
+// is missing or what it waits for.
 static void draw_words(const Tab *tab, int pane) {
     const DipRect *rect = &tab->window->layout->panes[pane];
     char room[80], text[120];

@@ -28,7 +28,7 @@ enum {
 enum { ID_MAP = 1, ID_OVER = 20, ID_BRIGHTNESS = 30 };
 enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4 };
 
-// Everything that the functions need to draw the tab's blocks.
+// Everything that functions need to draw the tab's blocks.
 typedef struct Tab {
     DipUi *ui;
     DipWindow *window;
@@ -44,7 +44,7 @@ static inline bool is_work_map(DipMap map) {
     return map == DIP_MAP_TIME || map == DIP_MAP_FRAGMENTS || map == DIP_MAP_PROBES;
 }
 
-// Finds the pixel that the tab describes: the one under the pointer, or else the pinned one.
+// Finds the pixel that the tab describes: the pixel under the pointer, or else the pinned pixel.
 // Returns false if there is none.
 static inline bool described_pixel(const Tab *tab, int *x, int *y) {
     const DipMapView *view = &tab->maps->view;

@@ -1,6 +1,6 @@
 // Declares the path tab: the choice of the path that the camera follows and of the animation that
 // the models play, the controls that fly the camera, and the editor of a path that the user makes
-// key by key.
+// from keys (poses).
 #include "app/preview/state/pilot.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -34,8 +34,9 @@ static void action_button(DipFlow *flow, unsigned id, const char *text, DipUiLoo
 // --- the path that plays -------------------------------------------------------------------------
 
 // Lists the camera paths, each once. A category of settings may have a path (camtrack.h), and
-// several categories may share one. A path is listed as the index of a category that has it: the
-// active category if it has this path, otherwise the first one. Returns the number of paths.
+// several categories may share a path. A path is listed as the index of a category that has it: the
+// active category if this has the path, otherwise the first category with the path. Returns the
+// number of paths.
 static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEGORIES]) {
     const DipCamTrack *track = state->track;
     int count = 0;
@@ -60,20 +61,20 @@ static int list_paths(const DipPreviewState *state, int paths[DIP_CAMTRACK_CATEG
 typedef struct Choices {
     const char *const *texts;
     int count;
-    int playing;     // Index of the one that plays, or -1 for none.
-    bool chosen;     // The button of the one that plays looks chosen.
-    unsigned id;     // Id of the first button. The arrows have the two ids before it.
-    const char *tip; // Tip of an alternative's button: these words, then the alternative's name.
-    const char *const *names; // The names for the tips.
-    const char *tip_before;   // Tips of the arrows.
+    int playing;              // Index of the alternative that plays, or -1 for none.
+    bool chosen;              // The button of the alternative that plays looks chosen.
+    unsigned id;              // Id of the first button. The arrows have the two ids before it.
+    const char *tip;          // Each button's tip: these words, then the name from `names`.
+    const char *const *names; // The alternatives' names for the tips.
+    const char *tip_before;   // Tip of the arrow to the alternative before.
     const char *tip_next;
 } Choices;
 
-// What was pressed, if it is not the index of an alternative.
+// What declare_choices returns if no alternative was pressed.
 enum { PRESSED_NOTHING = -1, PRESSED_BEFORE = -2, PRESSED_NEXT = -3 };
 
-// Returns the index of the first alternative to show in a row of the given width, so that the one
-// that plays shows, too.
+// Returns the index of the first alternative to show in a row of the given width, so that the
+// alternative that plays shows, too.
 static int first_choice(const DipFlow *flow, const Choices *choices, int width) {
     int first = dip_max(choices->playing, 0);
     int used = dip_flow_button_width(flow, choices->texts[first]);
@@ -87,8 +88,8 @@ static int first_choice(const DipFlow *flow, const Choices *choices, int width) 
     return first;
 }
 
-// Declares the alternatives in the rest of the row, with arrows if the rest has no room for all.
-// Returns what was pressed.
+// Declares the alternatives in the rest of the row, with arrows if not all have room there. Returns
+// the index of the alternative that was pressed, or one of the numbers above.
 static int declare_choices(DipFlow *flow, const Choices *choices) {
     const int room = dip_rect_right(flow->body) - flow->x;
     int width = -flow->gap, first = 0, pressed = PRESSED_NOTHING;
@@ -152,7 +153,7 @@ static void declare_paths(DipFlow *flow) {
 
 // --- the animation that plays --------------------------------------------------------------------
 
-// Begins a new row unless the rest of this one has room for some animations.
+// Begins a new row unless the rest of this row has room for some animations.
 static void make_room(DipFlow *flow) {
     flow->x += 2 * flow->gap;
     if (flow->x + 4 * dip_flow_button_width(flow, "No animation") > dip_rect_right(flow->body)) {
@@ -160,7 +161,7 @@ static void make_room(DipFlow *flow) {
     }
 }
 
-// Declares the animations of the models, in the rest of the row if that is long enough.
+// Declares the animations of the models, in the rest of the row or in a new row.
 static void declare_animations(DipFlow *flow) {
     const DipPreviewState *state = flow->window->state;
     const DipSessionAnimations *animations = state->animations;

@@ -37,8 +37,8 @@ static int step_of(const DipPreviewState *state, int pane, DipSetting setting) {
     return state->quality[pane].step[setting];
 }
 
-// Returns what the setting lacks to have an effect: something in the scene, or another setting of
-// the edited pane. Returns NULL if it has an effect.
+// Returns what a setting needs to have an effect and lacks: something in the scene, or another
+// setting of the edited pane. Returns NULL if the setting has an effect.
 static const char *needs_of(const DipPreviewState *state, DipSetting setting) {
     return setting == DIP_SETTING_SHADOWS && state->lacks_shadows
                ? "needs a directional light"
@@ -68,9 +68,10 @@ static DipColour flip_colour(const DipPrice *price) {
                                : dip_style_worse;
 }
 
-// Returns whether a step is valid together with the other settings of the edited pane. If it is
-// not, writes why. Every step of antialiasing is valid: if its samples cannot be divided into the
-// groups of adaptive antialiasing, choosing the step also sets the group size to its default.
+// Returns whether a step is valid together with the other settings of the edited pane. If the step
+// is not valid, writes why. Every step of antialiasing is valid: if its samples cannot be divided
+// into the groups of adaptive antialiasing, choosing the step also sets the group size to its
+// default.
 static bool is_valid(const DipPreviewState *state, DipSetting setting, int step, char why[256]) {
     DipQuality quality = state->quality[edited_pane(state)];
     DipError err;
@@ -84,7 +85,7 @@ static bool is_valid(const DipPreviewState *state, DipSetting setting, int step,
 }
 
 // Draws "none → 4x", the current and the requested step, at the right end of a row. Draws the
-// requested step alone if both are the same or there is no room.
+// requested step alone if both steps are the same or there is no room for both.
 static void draw_values(DipUi *ui, const DipPreviewState *state, DipSetting setting, int size,
                         DipRect row) {
     const char *const *labels = dip_setting_info(setting)->labels;
@@ -100,8 +101,8 @@ static void draw_values(DipUi *ui, const DipPreviewState *state, DipSetting sett
     }
 }
 
-// Changes a setting by what the user did with its control. pointed: position of the step under the
-// pointer, in the order of dip_setting_step_at.
+// Changes a setting by what the user did with the setting's control. pointed: position of the step
+// under the pointer, in the order of dip_setting_step_at.
 static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const DipUiInput *input,
                       int pointed) {
     DipPreviewState *state = window->state;
@@ -112,7 +113,7 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
         wanted = pointed;
     } else if (input->steps) {
         wanted = now + input->steps;
-        char why[256]; // Skips steps that are not valid.
+        char why[256]; // Steps that are not valid are skipped.
         while (wanted >= 0 && wanted < count &&
                !is_valid(state, setting, dip_setting_step_at(setting, wanted), why)) {
             wanted += input->steps > 0 ? 1 : -1;
@@ -140,14 +141,14 @@ typedef struct Slider {
     int pointed; // Position of the step under the pointer.
     DipUiInput input;
     DipPrice prices[DIP_MAX_STEPS]; // Prices of the steps by their position.
-    double most_ms;                 // The greatest time of a price, which has the longest bar.
-    double most_flip;               // The greatest change of FLIP.
-    bool rough;  // Some prices come from a few frames only. The word "ms" then gets a mark.
-    bool dimmed; // The setting has no effect in this scene or with the pane's other settings.
+    double most_ms;   // The greatest absolute time of a price, which has the longest bar.
+    double most_flip; // The greatest absolute change of FLIP, which has the longest bar.
+    bool rough;       // Some prices are rough, so the word "ms" gets a mark.
+    bool dimmed;      // The setting has no effect in this scene or with the pane's other settings.
 } Slider;
 
-// Draws a bar at the foot of a price. The length of the bar is proportional to `value`, and the
-// value `most` has the longest bar.
+// Draws a bar at the foot of a price. The bar's length is proportional to the absolute value of
+// `value`; the value `most` has the longest bar.
 static void draw_bar(DipUi *ui, DipRect cell, double value, double most, DipColour colour,
                      bool requested) {
     const int longest = dip_ui_px(ui, BAR_LENGTH);
@@ -188,8 +189,8 @@ static void draw_price(DipUi *ui, const DipPreviewState *state, const Slider *sl
     }
 }
 
-// Draws a step as a pill: filled if the requested pane has it, with a white outline if the current
-// pane has it.
+// Draws a step as a pill: filled if the requested pane has this step, with a white outline if the
+// current pane has it.
 static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *slider, int position,
                       DipRect cell) {
     const int step = dip_setting_step_at(slider->setting, position);
@@ -224,7 +225,7 @@ static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *sli
 }
 
 // Draws the steps with their prices in the slider's cells, and the words "ms" and "FLIP" left of
-// them.
+// the cells.
 static void draw_steps(DipUi *ui, const DipPreviewState *state, const Slider *slider) {
     const DipRect cells = slider->cells;
     const int pill = dip_ui_px(ui, STEP_HEIGHT), price = dip_ui_px(ui, PRICE_HEIGHT);
@@ -277,7 +278,7 @@ static Slider make_slider(DipUi *ui, DipWindow *window, DipSetting setting, DipR
 
 // --- the editor ----------------------------------------------------------------------------------
 
-// Draws the setting's name, its key and what it needs, and its steps in both panes.
+// Draws a setting's name, its key (such as "aa"), what it needs, and its steps in both panes.
 static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting setting, DipRect head) {
     const DipSettingInfo *info = dip_setting_info(setting);
     const char *needs = needs_of(state, setting);
@@ -292,8 +293,8 @@ static void draw_head(DipUi *ui, const DipPreviewState *state, DipSetting settin
 }
 
 // Declares a button that plays the camera path made to show the setting. The button is cut from the
-// right end of *head. There is no button if there is no such path, if it plays already, if a scene
-// of the gallery shows, or if the setting has no effect.
+// right end of *head. There is no button if there is no such path, if this path plays already, if a
+// scene of the gallery shows, or if the setting has no effect.
 static void declare_path(DipUi *ui, DipWindow *window, DipSetting setting, DipRect *head) {
     DipPreviewState *state = window->state;
     const int category = dip_preview_category_of(setting);
@@ -363,7 +364,8 @@ void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     find_prices(window, &slider);
     draw_head(ui, state, setting, head);
     draw_steps(ui, state, &slider);
-    if (has_note) { // The note is about the step under the pointer, or else the requested one.
+    if (has_note) { // The note is about the step under the pointer, or else about the requested
+                    // step.
         if (!slider.input.hovered) {
             write_note(window, setting, step_of(state, DIP_PANE_REQUESTED, setting), note);
         }

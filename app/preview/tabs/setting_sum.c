@@ -1,6 +1,6 @@
-// Shows the price of the requested settings: the sum of prices, its parts against the time budget,
-// and where the prices come from. Declares the buttons that act on all settings, and the number
-// fields of the target (frames per second and milliseconds per frame).
+// Shows the price of the requested settings: the sum of prices, the parts of this sum against the
+// time budget, and where the prices come from. Declares the buttons that act on all settings, and
+// the number fields of the target (frames per second and milliseconds per frame).
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -28,9 +28,9 @@ static DipUiId id_of(int control) {
 
 // --- presets and buttons -------------------------------------------------------------------------
 
-// Returns whether presets that depend on prices cannot be chosen yet, because the settings
-// that prices start from (dip_prices_base) have no time or no error. Scenes of the gallery have no
-// errors, so only the time is awaited.
+// Returns whether presets that depend on prices cannot be chosen yet, because the settings that
+// prices start from (dip_prices_base) have no time or no error. Scenes of the gallery have no
+// errors, so there presets wait only for the time.
 static bool presets_wait(const DipWindow *window) {
     const DipQuality base = dip_prices_base(window->prices);
     const DipPriceSum sum = dip_prices_sum(window->prices, &base);
@@ -120,8 +120,8 @@ void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect) {
 
 // --- the target ----------------------------------------------------------------------------------
 
-// Cuts a field and the word behind it from the left side of *rest, and declares them. Returns what
-// the user did with the field.
+// Declares a field and writes a word behind it, at the left side of *rest, and cuts both off *rest.
+// Returns what the user did with the field.
 static DipUiInput declare_field(DipUi *ui, int id, DipRect *rest, int width, const char *text,
                                 const char *word, double *typed) {
     static const char tip[] =
@@ -167,11 +167,11 @@ static const DipColour part_colours[PART_COUNT] = {{139, 149, 162, 255},
                                                    {255, 226, 143, 255},
                                                    {196, 202, 210, 255}};
 
-// A sum of prices, divided as the bar and its legend show it.
+// A sum of prices, divided into the parts that the bar and the legend show.
 typedef struct Parts {
     double ms[PART_COUNT]; // Time of each part. Doubtful prices are left out.
     double rest_ms;        // The rest of the sum: doubtful prices, and DipPriceSum.together_ms.
-    bool doubt;            // rest_ms has a doubtful price.
+    bool doubt;            // rest_ms includes a doubtful price.
 } Parts;
 
 static Parts parts_of(const DipPriceSum *sum) {
@@ -220,7 +220,7 @@ static double end_of_scale(double ms, double budget_ms) {
     return end_ms;
 }
 
-// Draws a bar of the parts of the sum, and a mark at the budget.
+// Draws the parts of the sum as a bar, with a mark at the budget.
 static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double budget_ms,
                         DipRect rect) {
     const double rest_ms = parts->rest_ms;
@@ -244,7 +244,7 @@ static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double bud
         fill_hatched(ui, (DipRect){rect.x + parts_end, rect.y, width, rect.height},
                      dip_style_accent);
     }
-    if (rest_ms < 0.0) { // The sum is less than its parts. Stripes cover the difference.
+    if (rest_ms < 0.0) { // The sum is less than its parts together. Stripes cover the difference.
         fill_hatched(ui, (DipRect){rect.x + end, rect.y, parts_end - end - 1, rect.height},
                      dip_style_well);
     }
@@ -296,7 +296,7 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 // --- the sum -------------------------------------------------------------------------------------
 
 // Writes the note beside the sum. The note says that the sum is doubtful, how far it exceeds the
-// budget, or what its 95 % interval is; it is empty if none of these applies. If the sum
+// budget, or what its 95 % interval is; the note is empty if none of these applies. If the sum
 // holds for a path, the text of the excess or of the interval says so.
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     const double budget_ms = window->state->budget_ms;
@@ -316,8 +316,8 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
     }
 }
 
-// Draws the sum and a note beside it. Where room is short, the sum has smaller letters, down to
-// those of the note, so that its number is not cut.
+// Draws the sum and a note beside it. If room is short, the letters of the sum become as small as
+// those of the note, so that the number is not cut.
 static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum, DipRect rect) {
     const bool over =
         sum->ms > window->state->budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
@@ -340,19 +340,19 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     }
 }
 
-// Declares a button at the right end of *line, and cuts it from the line. Leaves out a button that
-// would take more than half of the line. Returns whether the button was pressed.
+// Declares a button at the right end of *line, and cuts the button off *line. Leaves out a button
+// that would take more than half of the line. Returns whether the button was pressed.
 static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const char *tip) {
     const int width = dip_ui_text_width(ui, 13, text) + dip_ui_px(ui, 16);
     return 2 * width <= line->width &&
            dip_ui_button(ui, id_of(id), dip_cut_right(line, width), text, DIP_UI_PLAIN, tip);
 }
 
-// Declares a button that gets prices for this view, if one is needed. While live prices (prices.h)
-// are not known and time runs, the button stops time, since live prices are measured at rest. If
-// the report's prices do not hold for the panes, the button changes between the report and live
-// prices. A report of another scene needs no button, since live prices take its place by
-// themselves.
+// Declares a button by which the user gets prices for this view, if such a button is needed. While
+// live prices (prices.h) are not known and time runs, the button stops time, since live prices are
+// measured at rest. If the report's prices do not hold for the panes, the button changes between
+// the report and live prices. A report of another scene needs no button, since live prices take its
+// place by themselves.
 static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect *line) {
     DipPreviewState *state = window->state;
     const DipPrices *prices = window->prices;
@@ -431,7 +431,8 @@ static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
     }
 }
 
-// Returns the height of what draw_source must not cut: the progress, and the source if it warns.
+// Returns the height of the texts that draw_source must not cut: the progress, and the source if it
+// is a warning.
 static int source_height(const DipUi *ui, const DipWindow *window, int width) {
     char source[400];
     const char *progress = dip_prices_progress(window->prices);
@@ -478,7 +479,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
         line.height = note;
         draw_legend(ui, &shown, &parts, line);
     }
-    // Where the legend has more rows than it has room for, the buttons cover the last ones.
+    // If the legend has more rows than room, the buttons cover the last rows.
     line = dip_cut_top(&rest, buttons);
     line.y = dip_min(line.y, dip_rect_bottom(rect) - line.height);
     dip_setting_buttons_declare(ui, window, line);

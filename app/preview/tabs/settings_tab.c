@@ -55,7 +55,7 @@ static DipRect inside_of(const DipUi *ui, DipRect body) {
 }
 
 // Declares the presets and below them the list of settings, in two columns. group_width: room for
-// the words of the groups, in pixels; 0 for none.
+// the names of the groups, in pixels; 0 leaves the names out.
 static void declare_list(DipUi *ui, DipWindow *window, DipRect room, int group_width,
                          int preset_columns) {
     const int gap = dip_ui_px(ui, GAP);
@@ -80,8 +80,8 @@ static void declare_list(DipUi *ui, DipWindow *window, DipRect room, int group_w
 
 // --- a wide tab ----------------------------------------------------------------------------------
 
-// Declares the list, the editor and the sum of prices side by side. If the tab is wider than these
-// need, the rest shows the graph of frame times.
+// Declares the list, the editor and the sum of prices side by side. If the tab is much wider than
+// these need, the rest shows the graph of frame times.
 static void declare_wide(DipUi *ui, DipWindow *window, DipRect body) {
     const int gap = dip_ui_px(ui, GAP), widest_sum = dip_ui_px(ui, 420);
     DipRect rest = inside_of(ui, body);
@@ -119,8 +119,8 @@ static void declare_medium(DipUi *ui, DipWindow *window, DipRect body) {
 // --- the drawer ----------------------------------------------------------------------------------
 
 // Declares the foot of the drawer (tools/layout.h): the sum of prices, the button Apply, and a
-// button that exchanges the list of settings for presets, Undo and Copy. more: the presets show
-// now.
+// button that exchanges the list of settings for presets, Undo and Copy. more: the presets, Undo
+// and Copy show now.
 static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) {
     const int pad = dip_ui_px(ui, 4);
     const double budget_ms = window->state->budget_ms;

@@ -12,7 +12,7 @@ enum {
     LARGEST_LETTERS = 15,      // Largest letter size of the costs, at scale 1.
     LARGEST_HELP_LETTERS = 17, // Largest letter size of the list of keys, at scale 1.
     TOP_EDGE_PX = 2,
-    EDGE_PX = 8, // Part of the window's width and height that the list of keys leaves free.
+    EDGE_PX = 8, // Pixels of the window's width and height that the list of keys leaves free.
     MAX_HELP_ROWS = 56,
     MAX_HELP_GROUPS = 3, // The keys stand in up to three groups beside each other.
     MAX_COLUMNS = 1 + 3 * DIP_COST_MAX_SWEEP_ROWS
@@ -28,7 +28,7 @@ static const char help_note[] =
 typedef struct Cell {
     const char *text; // NULL if the row ends before this column.
     DipColour colour;
-    bool is_number; // Stands at the right side of its column.
+    bool is_number; // The text stands at the right side of its column.
 } Cell;
 
 // Rows of texts between a title and a note. Each column is as wide as its widest text.
@@ -103,7 +103,7 @@ static DipRect draw_table(DipDrawList *list, const Table *table) {
 
 // --- costs ---------------------------------------------------------------------------------------
 
-// Says how to make a report of this scene. Lines with a command have the accent colour.
+// Writes how to make a report of this scene. Lines with a command have the accent colour.
 static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double scale) {
     DipFont *font = dip_draw_list_font(list);
     const int least = dip_style_scaled(10, scale);

@@ -1,10 +1,10 @@
 // Declares the functions that draw the window: the tabs of the dock (tools/layout.h), the labels,
 // and the sheets.
 //
-// Each tab has a source file. Its function declares the tab's controls (ui.h) and draws the tab's
-// contents, in event passes as well as in drawing passes. A tab changes only the preview's state
-// (state.h) and the memory of its own tool (tools.h). For most changes of the state for which a
-// DipAction exists, a tab calls dip_preview_act.
+// Each tab has a source file. The tab's function declares the tab's controls (ui.h) and draws the
+// tab's contents; it is called in event passes and in drawing passes. A tab changes only the
+// preview's state (state.h) and the memory of its own tool (tools.h). For most changes of the state
+// for which a DipAction exists, a tab calls dip_preview_act.
 #ifndef DIP_APP_PREVIEW_TABS_TABS_H
 #define DIP_APP_PREVIEW_TABS_TABS_H
 
@@ -15,8 +15,8 @@
 // that cover the window.
 void dip_window_declare(DipUi *ui, DipWindow *window);
 
-// Each function declares and draws one tab in the rectangle `body`, which is never empty. Where the
-// room is too small, a tab leaves out parts.
+// Each function declares and draws one tab in the rectangle `body`, which is never empty. A tab
+// leaves out parts for which there is no room.
 void dip_tab_settings(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_loupe(DipUi *ui, DipWindow *window, DipRect body);
 void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body);
@@ -31,12 +31,12 @@ void dip_times_graph_draw(DipUi *ui, const DipWindow *window, DipRect rect);
 
 // --- rows of controls ----------------------------------------------------------------------------
 
-// Finds places for the controls of a tab. The controls fill a row from the left, then the row below
-// it.
+// Finds places for the controls of a tab. The controls fill one row after the other, from the left
+// to the right.
 typedef struct DipFlow {
     DipUi *ui;
     DipWindow *window;
-    DipUiGroup group; // Range of the buttons' ids (ui.h).
+    DipUiGroup group; // Group of the buttons' ids (ui.h).
     int note_size;    // Letter size of notes, at scale 1.
     DipRect body;
     int x;
@@ -47,7 +47,7 @@ typedef struct DipFlow {
     bool narrow; // See dip_flow_make_narrow.
 } DipFlow;
 
-// Begins at the top of a tab. note_size: letter size of notes, at scale 1.
+// Returns a flow that begins at the top of a tab. note_size: letter size of notes, at scale 1.
 DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size);
 // Saves room in a narrow tab: rows and buttons become smaller, notes are left out, and a group of
 // controls does not begin a new row.
@@ -55,8 +55,8 @@ void dip_flow_make_narrow(DipFlow *flow);
 void dip_flow_next_row(DipFlow *flow);
 // Begins a new row for the next group of controls, unless the flow is narrow.
 void dip_flow_next_group(DipFlow *flow);
-// Returns a rectangle of the given width for the next control, in this row or, if it does not fit,
-// in the next one. The rectangle is empty if the tab is full or narrower than `width`.
+// Returns a rectangle of the given width for the next control, in this row or, if this row has no
+// room for it, in the next row. The rectangle is empty if the tab is full or narrower than `width`.
 DipRect dip_flow_next(DipFlow *flow, int width);
 int dip_flow_button_width(const DipFlow *flow, const char *text);
 // Declares a button. Returns whether it was pressed.
@@ -69,8 +69,8 @@ void dip_flow_text(DipFlow *flow, DipColour colour, const char *text);
 // --- labels and the bar ---------------------------------------------------------------------
 
 // Draws a label over each pane that shows: the pane's name, its time and its settings, or the
-// truth's name and samples. The difference of the panes has a label of its own instead. The label
-// has one line if that fits.
+// truth's name and samples. The difference of the panes has a label of its own instead. A label has
+// one line if its text fits into one.
 void dip_labels_draw(DipUi *ui, DipWindow *window);
 
 // Draws the notice, which says what just happened, over the lower edge of the panes.
@@ -83,24 +83,26 @@ void dip_bar_declare(DipUi *ui, DipWindow *window);
 
 enum { DIP_PANE_TIME_BYTES = 48 };
 
-// Returns a pane's time and its parts, as labels and panel show them. It is the price of the pane's
-// settings: from the report or, at rest, from live prices. If this price is not known, the sum has
-// the state DIP_PRICE_UNKNOWN and the pane's frame time as its only part: the median of the last
-// second with frames or, if the settings have changed since, the time of a single frame.
+// Returns a pane's time and the parts of this time, as the labels and the panel show them. The time
+// is the price of the pane's settings: from the report or, at rest, from live prices. If this price
+// is not known, the sum has the state DIP_PRICE_UNKNOWN and the pane's frame time as its only part:
+// the median of the last second with frames or, if the settings have changed since, the time of a
+// single frame.
 DipPriceSum dip_pane_sum(const DipWindow *window, int pane);
 
-// Returns for what the time of dip_pane_sum holds: " along the path", or "" for the picture in
+// Returns what the time of dip_pane_sum is valid for: " along the path", or "" for the picture in
 // view.
 const char *dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum);
 
 // Writes the time of dip_pane_sum: "8.4 ms"; "≈ 8.4 ms" if it was measured at rest; "8? ms" if it
-// is doubtful; "one frame: 44.0 ms"; or dots if it is not known.
+// is doubtful; "one frame: 44.0 ms" if it is the time of a single frame; or dots if it is not
+// known.
 void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TIME_BYTES]);
 
 // --- the settings' tab ----------------------------------------------------------------------
 
-// Ids of the controls in the settings tab. The id of a setting is DIP_ID_FIRST_SETTING plus the
-// DipSetting.
+// Ids of the controls in the settings tab. The id of a setting's control is DIP_ID_FIRST_SETTING
+// plus the DipSetting, that of a preset's button is DIP_ID_PRESETS plus the DipPreset.
 enum {
     DIP_ID_FIRST_SETTING = 1,
     DIP_ID_PRESETS = 100,
@@ -118,14 +120,16 @@ enum {
 };
 
 // Declares a setting as an entry of a list: its name, its steps in both panes, and the price of the
-// requested one. A click opens the setting in the editor; the wheel and arrow keys change its step.
+// requested step. A click opens the setting in the editor; the wheel and arrow keys change its
+// step.
 void dip_setting_entry_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
 
 // Declares the editor of the open setting (DipPreviewState.open_setting): all steps with their
-// prices and, if there is room, a note about one of them.
+// prices and, if there is room, a note about one step.
 void dip_setting_editor_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
-// Declares a setting as one line of a narrow list: its name, its step (value) and its price.
+// Declares a setting as one line of a narrow list: its name, its steps (values) in both panes, and
+// the price of the requested step.
 void dip_setting_line_declare(DipUi *ui, DipWindow *window, DipSetting setting, DipRect rect);
 
 // Declares all presets as buttons in a grid.
@@ -136,28 +140,29 @@ void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect);
 void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // Declares two number fields for the target that advised settings must reach: frames per second,
-// and the same as milliseconds per frame (the budget).
+// and the same target as milliseconds per frame (the budget).
 void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // Draws the price of the requested settings: the sum of prices, its parts against the budget, and
-// where the prices come from. Declares the target and the setting buttons between these. Leaves out
-// what does not fit.
+// where the prices come from. Between these, declares the fields of the target and the setting
+// buttons. Leaves out what does not fit.
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // --- sheets ---------------------------------------------------------------------------------
 
-// Draws a sheet that covers the window and lists all keys and what they do, in the largest letters
-// that fit. If `words` is not empty, lists only the keys whose label or text contains `words`,
-// ignoring case. scale: as in DipUiPass.
+// Darkens the window and draws a sheet that lists all keys and what they do, in the largest letters
+// that fit. If `words` is not empty, the sheet lists only the keys whose label or text contains
+// `words`, ignoring case. scale: as in DipUiPass.
 void dip_sheet_draw_help(DipDrawList *list, double scale, const char *words);
 
-// Draws a sheet with the cost report as a table, which highlights the steps that the requested pane
-// has. If there is no report, the sheet says how to make one.
+// Darkens the window and draws a sheet with the cost report as a table, in which the requested
+// pane's steps have another colour. If there is no report, the sheet says how to make one.
 void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, double scale);
 
 // --- symbols of the bar ---------------------------------------------------------------------
 
-// Symbols of the bar. The symbol of a tab has the number of its DipTab. These symbols follow.
+// Numbers of the bar's symbols. The symbol of a tab has the number of its DipTab; the other symbols
+// have the numbers after these.
 enum {
     DIP_ICON_FULL_SCREEN = DIP_TAB_COUNT,
     DIP_ICON_PANES, // Two pictures beside each other.

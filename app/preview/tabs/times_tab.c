@@ -1,6 +1,6 @@
 // Draws the times tab: a graph of the frame times of the last seconds, and lines with the stage
 // times, errors and work of each pane. If the dock is a narrow drawer (DIP_DOCK_DRAWER), the tab
-// has the lines of the requested pane only.
+// has only the lines of the requested pane.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
@@ -43,8 +43,8 @@ static History history_of(const DipPaneFigures *figures, int64_t now_ns) {
     return history;
 }
 
-// Returns the time at the graph's right end. It moves in steps, so that the graph is drawn anew
-// only four times a second.
+// Returns the time at the graph's right end. This time moves in steps, so that the graph is drawn
+// anew only four times a second.
 static int64_t graph_now_ns(const DipUi *ui) {
     const int64_t step_ns = 250000000;
     return dip_ui_now_ns(ui) / step_ns * step_ns;
@@ -154,7 +154,7 @@ static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect 
     }
 }
 
-// Writes what a pane shows, and at which size.
+// Writes a pane's name, the size of its picture, and the scene or the path that shows.
 static void draw_heading(DipUi *ui, const DipWindow *window, int pane, DipRect line) {
     const DipPreviewState *state = window->state;
     const DipPixels *frame = &window->frames[pane];

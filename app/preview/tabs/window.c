@@ -63,8 +63,8 @@ static void declare_sheet(DipUi *ui, DipWindow *window) {
 }
 
 // Declares the button that ends the mode in which only the panes show. The button shows while the
-// pointer is in the lower half of the window or a notice shows. When a key or a button begins the
-// mode, a notice shows.
+// pointer is in the lower half of the window or a notice shows. The action that begins the mode
+// also shows a notice.
 static void declare_way_back(DipUi *ui, DipWindow *window) {
     static const char text[] = "Show the panel  (/)";
     const DipLayout *layout = window->layout;
