@@ -17,12 +17,12 @@ struct DipRemote {
     DipControl *control;
     const DipPreviewMoment *moment; // Valid during a call; NULL between calls.
     bool acted; // A request that may change the pictures was handled in this turn.
-    bool waits; // A request waits for the next picture.
+    bool waits; // A request of this turn waits for the next picture.
     unsigned topics;
     unsigned subscriptions;
     uint64_t told[DIP_CONTROL_TOPIC_COUNT];   // Hash of each topic's last event.
-    int64_t told_ns[DIP_CONTROL_TOPIC_COUNT]; // When this event was sent.
-    int64_t told_notice_ns;                   // When the notice that was seen last ends.
+    int64_t told_ns[DIP_CONTROL_TOPIC_COUNT]; // When that event was sent.
+    int64_t told_notice_ns;                   // notice_end_ns of the notice that was seen last.
 };
 
 // --- settings, paths and time --------------------------------------------------------------------
@@ -101,8 +101,8 @@ static bool find_scene(const DipSession *session, const char *name, int *scene, 
                          "the tour can only be chosen by the option --scene tour");
 }
 
-// The first attempt asks for the scene. The second one, after a picture has been drawn, finds out
-// whether the scene could be opened.
+// The first attempt asks for the scene. The second attempt, after a turn has drawn a picture, finds
+// out whether the scene could be opened.
 static DipControlAnswer show_scene(const DipPreviewMoment *moment, const char *name, int attempt,
                                    DipError *err) {
     const DipSession *session = moment->session;
@@ -145,8 +145,8 @@ static bool find_animation(const DipSessionAnimations *animations, const char *n
                          dip_name_list_end(&accepted));
 }
 
-// The first attempt asks for the animation. The later ones wait until the models have been opened
-// with it.
+// The first attempt asks for the animation. Later attempts wait until the models have been opened
+// with this animation.
 static DipControlAnswer play_animation(const DipPreviewMoment *moment, const char *name,
                                        int attempt, DipError *err) {
     const DipSessionAnimations *animations = &moment->session->animations;
@@ -170,7 +170,7 @@ static DipControlAnswer play_animation(const DipPreviewMoment *moment, const cha
     return DIP_CONTROL_REFUSED;
 }
 
-// Returns where panes and dock lie in a window of the given size.
+// Returns where the panes and the dock lie in a window of the given size.
 static DipLayout layout_of(const DipPreviewMoment *moment, int width, int height) {
     const DipToolState *tools = &moment->state->tools;
     const double scale =
@@ -188,8 +188,8 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    for (int i = 0; i < 4; ++i) { // Repeats, because the scale depends on the height, and the
-                                  // height on the scale.
+    // Iterates, because the scale depends on the height, and the height on the scale.
+    for (int i = 0; i < 4; ++i) {
         const double scale = dip_layout_scale(display_scale, tools, height);
         dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare,
                                &width, &height);
@@ -318,8 +318,8 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
 
 // --- events --------------------------------------------------------------------------------------
 
-// Shortest time between two events of one topic, if the topic is times, prices or polls. The first
-// event after a subscription does not wait for it.
+// Shortest time between two events of one topic, for the topics times, prices and polls. The first
+// event after a subscription comes at once.
 enum { PERIOD_NS = 250000000 };
 
 static bool wants(const DipRemote *remote, DipControlTopic topic) {
@@ -335,15 +335,15 @@ static uint64_t hash_of(const cJSON *object) {
     return hash.lanes[0];
 }
 
-// Says how the events of a topic are sent. They have the fields of a part (DipControlPart). An
-// event is sent if it says something new, at most once in a period. A poll is sent even if nothing
-// is new: it asks the subscribers for their settings, and a subscriber whose settings have changed
-// answers with the request `set`.
+// Says how the events of a topic are sent. An event has the fields of a part (DipControlPart). An
+// event is sent if its fields have changed, at most once in a period. A poll is sent even if
+// nothing has changed: it asks the subscribers for their settings, and a subscriber whose settings
+// have changed answers with the request `set`.
 typedef struct Topic {
-    bool is_part; // False if other functions send the events.
+    bool is_part; // False if other functions send the topic's events.
     DipControlPart part;
     int64_t period_ns;
-    bool repeats;       // The event is also sent if it says nothing new.
+    bool repeats;       // The event is also sent if its fields have not changed.
     bool needs_picture; // Nothing is sent before the first picture.
 } Topic;
 

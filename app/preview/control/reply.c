@@ -41,7 +41,7 @@ static const char *scene_name(const DipSession *session) {
                : dip_gallery_info(session->gallery_scene)->name;
 }
 
-// Returns the name by which the request `animation` asks for the animation that plays.
+// Returns the name that the request `animation` has for the animation that plays, or "none".
 static const char *animation_name(const DipSession *session) {
     const DipSessionAnimations *animations = &session->animations;
     const bool plays = animations->playing >= 0 && animations->playing < animations->count;
