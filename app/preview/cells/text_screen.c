@@ -1,4 +1,4 @@
-// Decodes UTF-8 and writes its characters into cells.
+// Decodes UTF-8 texts and writes their characters into cells.
 #include "app/preview/cells/text_screen.h"
 
 #include "renderer/base/utf8.h"
@@ -44,9 +44,9 @@ void dip_text_screen_fill(DipTextScreen *screen, DipTextArea area, DipColour pap
     }
 }
 
-// Reads the next character and moves on to the one after it. The texts of the preview are valid
-// UTF-8, but a scene's name may hold anything. A control character, and a byte that is not valid,
-// becomes U+FFFD.
+// Reads the next character of *text, and moves *text to the character after it. The texts of the
+// preview are valid UTF-8, but a scene's name may hold anything. A control character, and a byte
+// that is not valid, becomes U+FFFD.
 static uint32_t next_code(const char **text) {
     uint32_t code = 0;
     const size_t length = dip_utf8_read(*text, DIP_UTF8_MOST_BYTES, &code);

@@ -6,19 +6,19 @@
 
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a block shows one setting.
-    SUM_COLUMNS = 26,    // Least width right of the blocks, for notes and the key of Apply.
+    SUM_COLUMNS = 26,    // Least width of the notes right of the blocks.
     ROW_COLUMNS = 60,    // Least width of a row that shows one setting.
     NAME_COLUMNS = 23,   // Width of a setting's name in its row.
-    BRIEF_COLUMNS = 11,  // Width of a setting's short name in its row, beside many steps.
+    BRIEF_COLUMNS = 11,  // Width of a setting's short name in a row that has many steps.
     STEP_COLUMNS = 6,    // Least width of a step in its row.
-    FIGURE_COLUMNS = 15, // Width of a step's time and change of FLIP at the row's end.
+    FIGURE_COLUMNS = 15, // Width of a step's time and change of FLIP at the end of a row.
     MAX_BLOCK_COLUMNS = 3,
     MAX_LINE_STEPS = 6, // Most steps of a block on one line.
     MARGIN = 1
 };
 
 // Columns of blocks on a wide screen, from left to right. Settings that belong together share a
-// column.
+// column. -1 ends a column.
 static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
     {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
     {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_MIPLOD, DIP_SETTING_SHARPEN, -1},
@@ -37,8 +37,8 @@ static const char *step_name(DipSetting setting, int step) {
 
 // --- steps -------------------------------------------------------------------------------------
 
-// Draws one step (value) of a setting: filled if the requested pane has it, in brackets if the
-// current pane has it. A click in `area` chooses the step.
+// Draws one step (value) of a setting: filled if the requested pane has this step, in brackets if
+// the current pane has it. Lets a click in `area` choose the step.
 static void draw_step(DipTextView *view, DipSetting setting, int step, DipTextArea area) {
     const DipQuality *quality = view->state->quality;
     const bool current = quality[DIP_PANE_CURRENT].step[setting] == step;
@@ -129,7 +129,7 @@ static int block_rows(DipSetting setting, bool has_costs) {
 }
 
 // Draws a setting's title, and at the row's right end the requested pane's step (value). If the
-// current pane has another step, it stands before the requested one.
+// current pane has another step, this one stands before the requested step.
 static void draw_head(DipTextView *view, DipSetting setting, int row, int column, int end) {
     const int from = view->state->quality[DIP_PANE_CURRENT].step[setting];
     const int to = view->state->quality[DIP_PANE_REQUESTED].step[setting];
@@ -197,8 +197,8 @@ static void draw_blocks(DipTextView *view, DipTextArea body) {
 }
 
 // Writes that both panes are the same, or which key gives the current pane the requested settings.
-// Below, names the source of the figures and the key for advice or, without a cost report, shows
-// what brackets and colours mean.
+// Below this, names the source of the figures and the key for advice or, without a cost report,
+// shows what brackets and filled steps mean.
 static void draw_sum(DipTextView *view, DipTextArea body) {
     const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;
@@ -267,8 +267,8 @@ void dip_text_draw_settings(DipTextView *view, DipTextArea body) {
     const int column_count = columns_of_rows(body.columns);
     const int columns = (body.columns - MARGIN) / column_count;
     const int rows = (DIP_SETTING_COUNT + column_count - 1) / column_count;
-    // If not all rows fit, those around the focused setting show or, if none has the focus, the
-    // first ones.
+    // If not all rows fit, the rows around the focused setting show or, if no setting has the
+    // focus, the first rows.
     const int focus_row = view->focused ? (int)view->focus % rows : 0;
     const int first = dip_max(0, dip_min(focus_row - body.rows / 2, rows - body.rows));
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {

@@ -1,4 +1,4 @@
-// Draws times, costs and the list of keys in characters.
+// Draws the times, the costs and the list of keys in characters.
 #include "app/preview/cells/text_view.h"
 #include "app/preview/state/keys.h"
 #include "renderer/base/assert.h"

@@ -1,12 +1,12 @@
-// Lays out the screen of characters, draws labels, bar and keys, and handles events.
+// Lays out the screen of characters, draws its labels, bar and row of keys, and handles events.
 #include "app/preview/cells/text_view.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum {
-    // If what the user opened (settings, times or costs) would leave the panes fewer rows than
-    // this, it gets at most half of the rows.
+    // If the settings, times or costs that the user has opened would leave the panes fewer rows
+    // than this, they get at most half of the rows.
     MIN_PANE_ROWS = 8,
     // Settings that the user has not opened show only if they leave the panes at least this many
     // rows.
@@ -138,7 +138,7 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
     }
 }
 
-// Writes on the left the names of the parts that can show and their keys and, on the right, the
+// Writes on the left what the body and the help can show, with the keys. Writes on the right the
 // path or the scene with its time, or that the camera is free.
 static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     const int columns = view->screen.columns;
@@ -165,7 +165,7 @@ static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     }
 }
 
-// Writes the most useful keys or, while there is a notice, the notice.
+// Writes a list of the most useful keys or, while there is a notice, the notice.
 static void draw_keys(DipTextView *view, const DipPreviewState *state, int row) {
     static const char *const keys[] = {
         "↑ ↓ setting   ← → step   Enter apply   Space pause   F1 keys   Esc quit",

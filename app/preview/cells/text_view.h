@@ -1,5 +1,6 @@
-// Writes the preview's labels, bar, settings, keys and help into character cells, for a display
-// that shows characters (display.h). The panes' pictures fill the cells that hold no text.
+// Writes the preview's labels, bar, settings, times, costs, keys and help into character cells, for
+// a display that shows characters (display.h). The panes' pictures fill the cells that hold no
+// text.
 //
 // The screen has, from top to bottom: a row of labels, the panes, a bar with the camera path, the
 // settings (or the times, or the costs), and a row of keys. A low screen has only the labels and
@@ -26,7 +27,7 @@ typedef struct DipTextLayout {
     int rows;
     DipTextArea panes[DIP_PANE_COUNT];
     int bar_row;      // -1 if there is no bar.
-    DipTextArea body; // Settings, times or costs. It has no rows if none of these shows.
+    DipTextArea body; // Settings, times or costs. The body has no rows if none of these shows.
     int keys_row;     // -1 if there is no row of keys.
 } DipTextLayout;
 
@@ -36,7 +37,7 @@ typedef struct DipTextView {
     DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Where clicks act, from the last drawing.
     int target_count;
     bool focused;                 // The arrow keys act on the settings.
-    DipSetting focus;             // The setting that they act on.
+    DipSetting focus;             // The setting on which the arrow keys act.
     const DipPreviewState *state; // Borrowed while the texts are written.
 } DipTextView;
 
@@ -56,13 +57,14 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
 
 // Hands an event to the settings. The up and down arrow keys choose a setting, and the left and
 // right ones change it. Escape leaves the settings. A click chooses a step. Returns whether the
-// settings have taken the event; then the event must do nothing else.
+// settings have taken the event. The caller must not act on an event that is taken.
 bool dip_text_view_event(DipTextView *view, DipPreviewState *state, const DipEvent *event,
                          int64_t now_ns);
 
 // --- for the parts of the view -----------------------------------------------------------------
 
-// Each function fills the body: the first one with settings, the others with times or costs.
+// Each function fills the body: the first one with the settings, the second with the times, the
+// third with the costs.
 void dip_text_draw_settings(DipTextView *view, DipTextArea body);
 void dip_text_draw_times(DipTextScreen *screen, DipTextArea body, const DipTextLayout *layout,
                          const DipPaneFigures figures[DIP_PANE_COUNT]);
@@ -71,7 +73,8 @@ void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPrevi
 // Covers the area with the list of keys.
 void dip_text_draw_help(DipTextScreen *screen, DipTextArea area);
 
-// Returns the number of rows that the settings need in a body of the given width.
+// Returns the number of rows that the settings need in a body of `columns` cells. has_costs: there
+// is a cost report.
 int dip_text_settings_rows(int columns, bool has_costs);
 
 #endif
