@@ -12,7 +12,8 @@
 
 #define FIELD(name) offsetof(DipPreviewOptions, name)
 
-// Reads the identifier of an X11 window: 29 bits, written in decimal or, after 0x, in hexadecimal.
+// Reads the identifier of an X11 window: a number from 1 to 0x1fffffff, in decimal or, after 0x, in
+// hexadecimal.
 static bool read_window(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     const bool hexadecimal = value[0] == '0' && (value[1] == 'x' || value[1] == 'X');
     const char *digits = hexadecimal ? value + 2 : value;
@@ -27,8 +28,8 @@ static bool read_window(void *fields, const DipOptionRow *row, const char *value
     return true;
 }
 
-// The options' values, in the order of DipDisplayChoice, of DipTerminalColours, and of
-// hides_panel's values 0 and 1.
+// The words that --display, --terminal-colours and --panel accept. A word's index is the value of
+// the option: a DipDisplayChoice, a DipTerminalColours, or 0 or 1 for hides_panel.
 static const char *const displays[] = {"auto", "window", "terminal"};
 static const char *const colours[] = {"auto", "true", "256", "none"};
 static const char *const panels[] = {"on", "off"};

@@ -1,4 +1,4 @@
-// Opens what the preview needs, and runs its loop.
+// Opens the display and everything else that the preview needs, and runs the preview's loop.
 #include "app/preview/preview.h"
 
 #include "app/cost/context.h"
@@ -25,9 +25,8 @@ static bool open_window(DipDisplay *display, const DipSession *session,
                                 .fixed_scale = options->ui_scale > 0.0};
     const int pane_height = session->pane_size.height;
     int height = pane_height;
-    for (int i = 0; i < 4 && !options->hides_panel; ++i) { // Repeats, because the scale depends on
-                                                           // the height, and the height on the
-                                                           // scale.
+    // Iterates, because the scale depends on the height, and the height on the scale.
+    for (int i = 0; i < 4 && !options->hides_panel; ++i) {
         const double scale = dip_layout_scale(1.0, &tools, height);
         height = pane_height + (int)(scale * dip_layout_dock_height() + 0.5);
     }
@@ -37,7 +36,8 @@ static bool open_window(DipDisplay *display, const DipSession *session,
                                       height, err);
 }
 
-// Opens the terminal. Fails if requests come from standard input, which the terminal needs.
+// Opens the terminal as the display. Also fails if --control is "-", because requests would then
+// come from standard input, which the terminal needs.
 static bool open_terminal(DipDisplay *display, const DipPreviewOptions *options, DipError *err) {
     if (options->control && strcmp(options->control, "-") == 0) {
         return dip_error_set(
@@ -48,8 +48,9 @@ static bool open_terminal(DipDisplay *display, const DipPreviewOptions *options,
 }
 
 // Opens the terminal or the window that the options ask for. If there is no display to open a
-// window on, `auto` opens the terminal, except with --window-id or --control or without a terminal.
-// Sets *notice to a text that tells the user about this replacement, or to NULL.
+// window on, `auto` opens the terminal instead, unless --window-id or --control is given or
+// standard output is no terminal. Sets *notice to a text that tells the user that the terminal
+// replaces the window, or to NULL.
 static bool open_display(DipDisplay *display, const DipSession *session,
                          const DipPreviewOptions *options, const char **notice, DipError *err) {
     static const char no_window[] =
@@ -74,9 +75,9 @@ static bool open_display(DipDisplay *display, const DipSession *session,
     return false;
 }
 
-// Opens what the preview needs beside its session and its display: prices, the cost report, the
-// cache, the reload (reload.h) and the control channel. Whatever was opened before a failure stays
-// in *def and *remote.
+// Creates what the preview needs besides its session and its display: prices, the reload
+// (reload.h), the cost report, the cache of truths and the control channel. After a failure, the
+// caller still closes what *def and *remote hold.
 static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_MAX],
                        const DipPreviewOptions *options, DipError *err) {
     char scene[DIP_COST_TEXT];
@@ -96,7 +97,7 @@ static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_M
     if (dip_cost_find_cache(options->cache, cache, err)) {
         def->cache = cache[0] ? cache : NULL;
     } else if (options->cache) {
-        return false; // Without --cache, the preview can run without a cache.
+        return false; // Only a folder that --cache names must be usable.
     }
     if (options->control) {
         *remote = dip_remote_open(options->control, err);

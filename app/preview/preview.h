@@ -20,21 +20,21 @@ typedef enum DipDisplayChoice {
 typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;
-    const char *cost_report;  // A cost.json of this scene or its folder, borrowed, or NULL.
+    const char *cost_report;  // The scene's cost.json or its folder; NULL without --cost. Borrowed.
     double pixels_per_degree; // For FLIP (a perceptual error); 0 if no option sets it.
-    const char *cache;        // Folder of cached truths (truth.h), borrowed from argv, or NULL.
-    const char *control;      // "-" or the path of a socket, borrowed from argv, or NULL.
+    const char *cache;        // Folder of cached truths (truth.h); NULL without --cache. Borrowed.
+    const char *control;      // "-" or a socket's path; NULL without --control. Borrowed.
     unsigned long window_id;  // X11 window to open the preview in; 0 means a window of its own.
-    bool watch;               // Reload what the preview shows when a file changes.
+    bool watch;               // The scene is loaded again when one of its files changes.
     int hides_panel;          // 1 with --panel off, otherwise 0.
     double ui_scale;          // Factor by which controls are enlarged; 0 without the option.
     DipDisplayChoice display;
     DipTerminalColours terminal_colours;
 } DipPreviewOptions;
 
-// Shows the session until the user or another program ends the preview. Fails if there is no
-// display (RUNTIME) or no font (MISSING), if the cost report, the cache of --cache or the control
-// channel cannot be opened, or if drawing fails.
+// Shows the session until the user or another program ends the preview. Fails if no display can be
+// opened (RUNTIME) or a window has no font (MISSING), if the cost report, the cache of --cache or
+// the control channel cannot be opened, or if drawing fails.
 bool dip_preview_run(DipSession *session, const DipPreviewOptions *options, DipError *err);
 
 #endif
