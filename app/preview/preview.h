@@ -21,7 +21,7 @@ typedef struct DipPreviewOptions {
     DipProgramOptions program;
     DipSessionOptions session;
     const char *cost_report;  // The scene's cost.json or its folder; NULL without --cost. Borrowed.
-    double pixels_per_degree; // For FLIP (a perceptual error); 0 if no option sets it.
+    double pixels_per_degree; // Viewing distance for FLIP (a perceptual error); 0 if not given.
     const char *cache;        // Folder of cached truths (truth.h); NULL without --cache. Borrowed.
     const char *control;      // "-" or a socket's path; NULL without --control. Borrowed.
     unsigned long window_id;  // X11 window to open the preview in; 0 means a window of its own.

@@ -129,7 +129,7 @@ static int block_rows(DipSetting setting, bool has_costs) {
 }
 
 // Draws a setting's title, and at the row's right end the requested pane's step (value). If the
-// current pane has another step, this one stands before the requested step.
+// current pane has another step, the current pane's step stands before the requested one.
 static void draw_head(DipTextView *view, DipSetting setting, int row, int column, int end) {
     const int from = view->state->quality[DIP_PANE_CURRENT].step[setting];
     const int to = view->state->quality[DIP_PANE_REQUESTED].step[setting];

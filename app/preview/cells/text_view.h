@@ -34,7 +34,7 @@ typedef struct DipTextLayout {
 // Zero-initialise.
 typedef struct DipTextView {
     DipTextScreen screen;
-    DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // Where clicks act, from the last drawing.
+    DipTextTarget targets[DIP_TEXT_MAX_TARGETS]; // The areas in which clicks act, as drawn last.
     int target_count;
     bool focused;                 // The arrow keys act on the settings.
     DipSetting focus;             // The setting on which the arrow keys act.

@@ -15,7 +15,7 @@
 
 struct DipRemote {
     DipControl *control;
-    const DipPreviewMoment *moment; // Valid during a call; NULL between calls.
+    const DipPreviewMoment *moment; // Valid during a call of turn(); otherwise NULL.
     bool acted; // A request that may change the pictures was handled in this turn.
     bool waits; // A request of this turn waits for the next picture.
     unsigned topics;

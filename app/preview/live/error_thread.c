@@ -1,5 +1,5 @@
 // Runs the thread that measures errors, passes stills (DipStill) to it, and reads its results.
-#define _GNU_SOURCE // syscall
+#define _GNU_SOURCE // Declares syscall().
 
 #include "app/preview/live/error_thread.h"
 

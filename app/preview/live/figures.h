@@ -18,21 +18,21 @@ enum { DIP_TIMING_SAMPLES = 512 };
 typedef struct DipTiming {
     int64_t at_ns[DIP_TIMING_SAMPLES];
     double ms[DIP_TIMING_SAMPLES];
-    unsigned count; // Number of times added so far.
+    unsigned count; // How many values were added so far.
 } DipTiming;
 
 void dip_timing_add(DipTiming *timing, int64_t now_ns, double ms);
 void dip_timing_clear(DipTiming *timing);
 
-// Returns the median of the times added in the last second. If there are none, returns the time
-// added last, or 0 if no time was added since dip_timing_clear.
+// Returns the median of the values added in the last second. If there are none, returns the value
+// added last, or 0 if none was added since dip_timing_clear.
 double dip_timing_median_ms(const DipTiming *timing, int64_t now_ns);
 
-// Returns the number of times added in the last second, at most DIP_TIMING_SAMPLES.
+// Returns how many values were added in the last second, but at most DIP_TIMING_SAMPLES.
 int dip_timing_per_second(const DipTiming *timing, int64_t now_ns);
 
-// Copies the times added in the last `span_ns`, the newest first. Unless age_ns is NULL, also
-// writes how long ago each time was added. Returns the number of times.
+// Copies the values added in the last `span_ns`, the newest first. Unless age_ns is NULL, also
+// writes how long ago each value was added. Returns how many values were copied.
 int dip_timing_recent(const DipTiming *timing, int64_t now_ns, int64_t span_ns,
                       double ms[DIP_TIMING_SAMPLES], int64_t age_ns[DIP_TIMING_SAMPLES]);
 

@@ -40,7 +40,7 @@ typedef struct DipPriceJobCalls {
 
 typedef struct DipPriceJob DipPriceJob;
 
-// Fills the live report of *prices, which is borrowed. Fails with MEMORY.
+// Creates a job that fills the live report of *prices, which is borrowed. Fails with MEMORY.
 DipPriceJob *dip_price_job_create(const DipPriceJobCalls *calls, DipPrices *prices, DipError *err);
 void dip_price_job_destroy(DipPriceJob **job); // *job may be NULL.
 

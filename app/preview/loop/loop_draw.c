@@ -179,7 +179,7 @@ bool dip_loop_alternates(const DipPreview *preview) {
 }
 
 // Writes into the figures of each pane (taa_speed) whether frames come fast enough for alternating
-// sample patterns. This changes only as often as the other figures, and is cleared for a pane
+// sample patterns. taa_speed changes only as often as the other figures, and is cleared for a pane
 // without such patterns.
 static void judge_taa(DipPreview *preview, int64_t now_ns) {
     const DipTaaSpeed speed =

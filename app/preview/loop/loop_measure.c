@@ -24,10 +24,10 @@ static bool wants_prices(const DipPreview *preview) {
            dip_preview_rests(state, preview->flying);
 }
 
-// Returns whether the prices or the advice that show need the truth (the converged picture),
-// against which the errors of settings are measured. For prices alone, the thread that draws the
-// truth is created only when all times are known at least roughly, because the thread would disturb
-// the measurement of times.
+// Returns whether prices or advice show that need the truth (the converged picture), against which
+// the errors of settings are measured. For prices alone, the thread that draws the truth is created
+// only when all times are known at least roughly, because the thread would disturb the measurement
+// of times.
 static bool prices_need_truth(const DipPreview *preview) {
     const DipPreviewState *state = &preview->state;
     const bool shown = state->tools.tab == DIP_TAB_SETTINGS || state->tools.tab == DIP_TAB_ADVICE;

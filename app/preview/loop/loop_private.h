@@ -67,9 +67,10 @@ struct DipPreview {
     int tried_width; // Size that the renderers got last, or could not get because memory ran out.
     int tried_height;
     int64_t blinks_ns; // When a blinking comparison next switches panes, or INT64_MAX.
-    bool redraw;       // What shows over and beside the panes may have changed.
-    bool exposed;      // The display has lost its picture, so the whole picture must be presented.
-    char title[128];   // The window's title.
+    bool redraw;     // What shows over or beside the panes may have changed, so the window must be
+                     // drawn.
+    bool exposed;    // The display has lost its picture, so the whole picture must be presented.
+    char title[128]; // The window's title.
     const void *judged_path;  // The path that played when state.stands was set.
     const void *judged_scene; // The scene that showed when state.stands was set.
     bool flying;              // The user or the path editor moved the camera in this turn.

@@ -14,12 +14,12 @@
 
 typedef struct DipReload DipReload;
 
-// The session is borrowed and must outlive the reload. With `watch`, it is reloaded when one of its
-// files changes. Returns NULL when memory runs out.
+// The session is borrowed and must outlive the reload. With `watch`, the session is opened again
+// when one of its files changes. Returns NULL when memory runs out.
 DipReload *dip_reload_create(DipSession *session, bool watch, DipError *err);
 
 // Waits for a session that is being opened, and closes it. The session that the preview shows stays
-// open. It points again to the options that it had before the first reload.
+// open. This session points again to the options that the session had before the first reload.
 void dip_reload_destroy(DipReload **reload);
 
 // Accepts a file that the user has dropped: a camera path (.pth, .bth), a cost report (.json), an

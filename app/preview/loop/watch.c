@@ -181,7 +181,8 @@ void dip_watch_file(DipWatch *watch, const char *file) {
 }
 
 void dip_watch_folder(DipWatch *watch, const char *file) {
-    const size_t length = (size_t)(base_name(file) - file); // Of the folder's path and a slash.
+    // Length of the folder's path with its slash; 0 without a folder.
+    const size_t length = (size_t)(base_name(file) - file);
     add_entry(watch, length == 0 ? strdup(".") : strndup(file, length > 1 ? length - 1 : 1), true);
 }
 

@@ -40,12 +40,12 @@ typedef struct DipPreviewChoice {
 } DipPreviewChoice;
 
 // Computes the choice again if the prices or the budget have changed, or if the candidates depend
-// on `like` and it has changed. prices: NULL if nothing is priced. like: the settings of the
+// on `like` and `like` has changed. prices: NULL if nothing is priced. like: the settings of the
 // requested pane. Returns whether the choice was computed.
 bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const DipQuality *like,
                         double budget_ms);
 
-// Computes the advice and the presets for another budget at once.
+// Computes the advice and the presets anew for another budget.
 void dip_preview_choice_set_budget(DipPreviewChoice *choice, double budget_ms);
 void dip_preview_choice_free(DipPreviewChoice *choice);
 

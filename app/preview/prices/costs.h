@@ -19,7 +19,7 @@ typedef struct DipCostsStep {
 // One setting's steps. One step is the baseline that the other steps are compared with. The texts
 // of the baseline are "1x" and its FLIP.
 typedef struct DipCostsRow {
-    char title[48]; // "Antialiasing".
+    char title[48]; // Title of the setting, such as "Antialiasing".
     DipSetting setting;
     DipCostsStep steps[DIP_COST_MAX_SWEEP_ROWS];
     int step_count;

@@ -8,7 +8,7 @@
 
 typedef struct DipPrices DipPrices;
 
-// Creates prices without a report. All of them are unknown. Fails with MEMORY.
+// Creates prices without a report. At first all prices are unknown. Fails with MEMORY.
 DipPrices *dip_prices_create(DipError *err);
 void dip_prices_destroy(DipPrices **prices);
 
@@ -61,8 +61,8 @@ DipCostReport *dip_prices_live(DipPrices *prices);
 // same pictures. Returns -1 if there is none.
 int dip_prices_find_live(const DipPrices *prices, const DipQuality *quality);
 
-// Returns the same index, but adds a row if there is none. Fails with MEMORY, also if all
-// DIP_PRICES_LIVE_ROWS rows are in use, and then returns -1.
+// Returns the same index as dip_prices_find_live, but adds a row if there is none. Fails with
+// MEMORY, also if all DIP_PRICES_LIVE_ROWS rows are in use, and then returns -1.
 enum { DIP_PRICES_LIVE_ROWS = 256 };
 int dip_prices_live_row(DipPrices *prices, const DipQuality *quality, DipError *err);
 

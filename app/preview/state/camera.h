@@ -11,7 +11,7 @@ typedef struct DipCameraKeys {
     double right;   // Key D is 1, A is -1.
     double up;      // Key Q is 1, E is -1.
     double forward; // Key W is 1, S is -1.
-    bool turn;      // The camera turns instead of moving. Held keys set this while Shift is held.
+    bool turn; // The camera turns instead of moving. The keyboard sets this while Shift is held.
 } DipCameraKeys;
 
 // Moves the camera along its own axes, by `seconds` times speed_m_per_s for a direction of 1, or

@@ -12,7 +12,7 @@
 enum { DIP_MAX_CONTROLLERS = 4 };
 
 // The connected controllers whose sticks and triggers steer the camera. Of further controllers,
-// only the buttons act. Zero-initialise it.
+// only the buttons act. Zero-initialise.
 typedef struct DipControllers {
     struct {
         bool used;

@@ -28,7 +28,7 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
 // The letter keys and modifiers that are held, with which the user flies the camera.
 // Zero-initialise.
 typedef struct DipHeldKeys {
-    bool letters[26]; // Whether the key is held that has this letter on a US keyboard, 'a' first.
+    bool letters[26]; // letters[i]: the key is held that has the letter 'a' + i on a US keyboard.
     unsigned modifiers;
 } DipHeldKeys;
 

@@ -14,7 +14,8 @@ static const double step_s = 0.25;
 
 static const double courtyard_speed_m_per_s = 3.0;
 static const double seconds_across_model = 4.0;
-static const double least_distance_m = 1.0; // To a point ahead that the camera orbits.
+// Least distance from the camera to a point ahead that it orbits.
+static const double least_distance_m = 1.0;
 
 double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);

@@ -34,13 +34,13 @@ void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_
 // Makes the camera free if it follows the path, and shows a notice about this.
 void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 
-// Returns the speed of the free camera in metres per second. Four of the steps that
-// flight->speed_steps counts double it.
+// Returns the speed of the free camera in metres per second. Every four steps of
+// flight->speed_steps double the speed.
 double dip_flight_speed(const DipFlight *flight);
 
-// Returns a speed in metres per second that suits the session's scene. If the user gave models, it
-// crosses the diagonal of the scene's bounding box in four seconds, whatever the models' unit of
-// length is; otherwise it is 3.
+// Returns a speed in metres per second that suits the session's scene. If the user gave models, a
+// camera of this speed crosses the diagonal of the scene's bounding box in four seconds, whatever
+// the models' unit of length is. Otherwise the speed is 3.
 double dip_flying_speed(const DipSession *session);
 
 // Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
@@ -48,9 +48,9 @@ double dip_flying_speed(const DipSession *session);
 bool dip_flight_should_orbit(const DipSession *session);
 
 // Writes the point that the camera orbits. If the panes show models that the user gave, this is the
-// middle of the scene's bounding box. In other scenes it is a point on the line of sight, which
-// shows in the middle of the picture: the one that is nearest to the middle of the scene, but at
-// least 1 m ahead.
+// middle of the scene's bounding box. In other scenes it is the point on the line of sight that is
+// nearest to the middle of the scene, but at least 1 m ahead, so it shows in the middle of the
+// picture.
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
 
 // Resets the free camera's speed, and decides by the session's scene whether dragging orbits. Call

@@ -37,7 +37,7 @@ typedef enum DipAction {
     DIP_ACTION_ORBIT,    // Frees the camera. A free camera switches between orbiting and turning on
                          // the spot.
     DIP_ACTION_SPEED,    // Makes the free camera faster (reversed: slower) by `argument` steps.
-    DIP_ACTION_PATH_END, // Chooses what paths do at their end: the `argument`-th next
+    DIP_ACTION_PATH_END, // Changes what paths do at their end by `argument` values of
                          // DipCamPathEnd.
     DIP_ACTION_PATH_EDIT, // Edits a path; the argument is a DipPathEdit.
     DIP_ACTION_HELP,
@@ -47,7 +47,7 @@ typedef enum DipAction {
     DIP_ACTION_TAB,    // Opens the dock at the tab `argument`; folds it if that tab shows already.
     DIP_ACTION_DOCK,   // Folds or opens the dock.
     DIP_ACTION_BARE,   // Shows nothing but the panes, or shows everything again.
-    DIP_ACTION_UNDO,   // Takes the last change of settings back or, reversed, makes it again.
+    DIP_ACTION_UNDO,   // Takes the last change of settings back; reversed, makes it once more.
     DIP_ACTION_PRESET, // Gives the requested pane a preset; the argument is a DipPreset.
     DIP_ACTION_SEEK,   // Moves the time forward by `argument` milliseconds or, reversed, back.
     DIP_ACTION_LOUPE,
@@ -56,7 +56,7 @@ typedef enum DipAction {
     DIP_ACTION_MAP,        // Chooses the next map.
     DIP_ACTION_ADJUST, // Changes the map's brightness, the difference's gain or the wipe's divider.
     DIP_ACTION_BLINK,
-    DIP_ACTION_SCREENSHOT, // Saves what shows or, reversed, the panes without overlays.
+    DIP_ACTION_SCREENSHOT, // Saves the window's picture or, reversed, the panes without overlays.
     DIP_ACTION_SAVE_POSE,
     DIP_ACTION_FULL_SCREEN,
     DIP_ACTION_QUIT,
@@ -90,7 +90,8 @@ typedef struct DipFlight {
     double drag_right;
     double drag_up;
     int zoom_steps;
-    // Steps of the camera that buttons have asked for since the last turn of the loop.
+    // Steps of the camera to the right and forward (below 0: left and back) that buttons have asked
+    // for since the last turn of the loop.
     int right_steps;
     int forward_steps;
     bool pressed;  // A button that flies the camera was pressed over a pane and is held.
@@ -169,7 +170,7 @@ typedef struct DipPreviewState {
     bool shows_presets;      // A narrow settings tab shows presets in place of settings.
     bool copy_settings;      // The user asked to copy the requested settings. Cleared when done.
     bool paste_settings;     // The user asked to paste settings. Cleared when done.
-    char notice[DIP_NOTICE_SIZE]; // What just happened, for the user; may be empty.
+    char notice[DIP_NOTICE_SIZE]; // Tells the user what just happened; may be empty.
     int64_t notice_end_ns;        // When the notice disappears, on the clock of now_ns.
     unsigned scene_changes;       // Grows whenever the panes' pictures have to change.
 } DipPreviewState;

@@ -7,8 +7,8 @@
 
 static const int64_t dip_state_notice_ns = 2500000000; // How long a notice shows.
 
-// Takes the last change of settings back or, if `reverse` is true, makes a change that was taken
-// back again.
+// Takes the last change of settings back or, if `reverse` is true, makes the change again that was
+// taken back last.
 void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns);
 // Gives the requested pane the settings of a preset, or shows a notice that says why the preset has
 // none.

@@ -302,9 +302,9 @@ void dip_state_take_advice(DipPreviewState *state, bool other_budget, int64_t no
 
 // --- texts ---------------------------------------------------------------------------------------
 
-// The short forms of settings, in which %s stands for the step. The short form of a setting that
-// may be off has no %s. If the setting is off, "no" precedes this short form; a step other than
-// "on" and "off" follows it.
+// The short forms of settings, in which %s stands for the step. A short form without %s names a
+// setting that is on; "no" precedes it if the step is "off", and a step other than "on" and "off"
+// follows it.
 static const char *const brief_forms[DIP_SETTING_COUNT] = {
     [DIP_SETTING_AA] = "AA %sx",
     [DIP_SETTING_TAA] = "temporal AA",

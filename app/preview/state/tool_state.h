@@ -49,7 +49,7 @@ typedef struct DipToolState {
     DipTab tab;
     bool open;        // The dock is open and shows `tab`.
     bool bare;        // The window shows nothing but the panes.
-    double ui_scale;  // 0.75..4; multiplies the display's scale.
+    double ui_scale;  // Factor on the display's scale, from 0.75 to 4.
     bool fixed_scale; // --ui-scale is given, so the window's height does not change the scale
                       // (dip_layout_scale).
     bool loupe;       // The user has switched the loupe on.
@@ -62,9 +62,9 @@ typedef struct DipToolState {
                     // right edge).
     int gain;       // DIFFERENCE: factor of the differences: 1, 2, 4, ... 64.
     bool against_truth; // WIPE, BLINK, DIFFERENCE: the truth replaces the current pane's picture.
-    bool blinked; // BLINK: shows the requested pane instead of the current one. The timer reverses
-                  // this.
-    bool blinks;  // BLINK: a timer switches between the panes, twice a second.
+    bool blinked;       // BLINK: shows the requested pane instead of the current one. The timer
+                        // (`blinks`) reverses this.
+    bool blinks;        // BLINK: a timer switches between the panes, twice a second.
     DipMap map;
     double brightness; // The value at the end of a map's colour scale is divided by this. A value
                        // below 1 counts as 1.

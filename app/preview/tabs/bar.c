@@ -192,7 +192,8 @@ static Bar measure(const DipUi *ui, const DipWindow *window) {
 
 // --- controls ------------------------------------------------------------------------------------
 
-// Returns whether the tool of a tab changes what the panes show, whichever tab is open.
+// Returns whether a tab's tool is in use, so that it changes what the panes show even while another
+// tab is open.
 static bool is_tool_on(const DipToolState *tools, DipTab tab) {
     switch (tab) {
     case DIP_TAB_LOUPE:

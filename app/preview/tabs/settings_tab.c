@@ -26,7 +26,8 @@ enum {
 };
 
 // The settings in the order in which the tab shows them, and the names of their groups. An entry
-// whose group is "" belongs to the group above it. A column ends at an entry whose group is NULL.
+// whose group is "" belongs to the group above it. A column ends at an entry whose group is NULL,
+// or after ENTRIES entries.
 enum { COLUMNS = 2, ENTRIES = 8 };
 static const struct {
     const char *group;

@@ -185,8 +185,8 @@ static bool holds(const char *text, const char *words) {
     return false;
 }
 
-// Lists the keys whose label or text contains `words`, in groups of `table->rows` rows. Returns the
-// number of these keys.
+// Lists the keys whose label or text contains `words`, at most MAX_HELP_ROWS keys, in groups of
+// `table->rows` rows. Returns the number of listed keys.
 static int list_keys(Table *table, const char *words) {
     int count = 0;
     memset(table->cells, 0, sizeof table->cells);

@@ -81,7 +81,7 @@ bool dip_compare_adjust(DipToolState *tools, int steps);
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns);
 
 // Returns when the window must be drawn again because the timer of BLINK switches the picture.
-// Returns INT64_MAX if this timer is off.
+// Returns INT64_MAX if BLINK is not chosen or this timer is off.
 int64_t dip_compare_wakes_ns(const DipToolState *tools, int64_t now_ns);
 
 const char *dip_compare_name(DipComparison comparison); // "Side by side"

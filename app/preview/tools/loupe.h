@@ -1,9 +1,9 @@
 // Implements the loupe: finds the pixels that it shows enlarged and where the panes mark these
 // pixels, reads the pixels' samples, and draws the loupe's pictures.
 //
-// The loupe looks at one pixel of both panes. Below each pane, the dock shows the crop, which has
-// the pixels around the looked-at pixel, each as a square of `zoom` x `zoom` pixels of the window,
-// and the box, a larger square with the samples of the looked-at pixel.
+// The loupe looks at one pixel of both panes. Below each pane, the dock shows two pictures. The
+// crop has the pixels around the looked-at pixel, each as a square of `zoom` x `zoom` pixels of the
+// window. The box is a larger square for the looked-at pixel alone, with the pixel's samples.
 #ifndef DIP_APP_PREVIEW_TOOLS_LOUPE_H
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
@@ -70,7 +70,7 @@ bool dip_loupe_is_front(const DipSampleValue *samples, int count, int sample);
 
 // --- memory ------------------------------------------------------------------------------------
 
-// A picture that is kept until what was drawn into it changes.
+// A picture that is drawn again only if its key (DipCropKey or DipBoxKey) changes.
 typedef struct DipKeptPicture {
     DipCanvas canvas;
     bool valid;

@@ -20,8 +20,8 @@ static DipPixels part_of(const DipPixels *picture, DipRect rect) {
     return (DipPixels){picture->rgba8 + offset, picture->stride_bytes, rect.width, rect.height};
 }
 
-// Marks a sample of a pixel whose square has its top left corner at x, y. The mark is a dark square
-// with a white border; if it is large enough, it has the sample's colour instead of dark.
+// Marks a sample of a pixel whose square has its top left corner at x, y. The mark is a square with
+// a white border. The square has the sample's colour if it is large enough; otherwise it is dark.
 static void mark_sample(const DipLoupe *loupe, DipCanvas *canvas, int x, int y, int zoom,
                         const DipSamplePattern *pattern, int s, const DipSampleValue *sample) {
     const int core = zoom / 8;

@@ -1,9 +1,10 @@
-// Makes the maps: pictures over each pane that show where its error lies and where its work goes.
+// Makes the maps: pictures over each pane that show where the pane's error lies and where its work
+// goes.
 //
 // The FLIP map comes from the thread that measures errors (error_thread.h). For the other maps, the
 // maps have a painter of their own, which draws each pane's frame again while camera and scene
-// rest. It records the tiles, or draws in mip colours. The panes' own frames are drawn as always
-// and take no more time.
+// rest. This painter records the tiles, or draws in mip colours. The panes' own frames are drawn as
+// always and take no more time.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
 

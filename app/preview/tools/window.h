@@ -28,7 +28,7 @@ typedef struct DipWindow {
     uint64_t truth_version; // Equal versions mean equal pixels. No frame has the same number.
 } DipWindow;
 
-// Draws the panes' pictures: side by side, or as the chosen comparison or map shows them.
+// Draws the panes' pictures side by side, or as the chosen comparison shows them.
 void dip_compare_pictures(DipUi *ui, DipWindow *window);
 
 // Each function declares what its tool shows over the panes, such as marks, dividers and the map.
