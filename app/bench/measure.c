@@ -133,8 +133,8 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
     return true;
 }
 
-// Stores the times in the results. The plan's base is drawn in every block of a round; the times
-// of the last block are kept.
+// Stores the times in the results. With one program, every block of a round draws the plan's base;
+// the times of the last block are kept.
 static void keep_times(const BenchTiming *t, const DipTimes *times) {
     for (int i = 0; i < times->count; i++) {
         const DipTimed *timed = &times->list[i];

@@ -65,11 +65,12 @@ typedef struct DipBenchSource {
 // come from these pairs (app/measure/stats/rounds.h).
 //
 // Before any time is taken, the warm-up draws each frame of each combination once. The samples of
-// the warm-up, with hashes and counters, become the results' `first` samples. If there are two
-// sources, they take turns after every frame, and a pause of one millisecond before each timed
-// frame lets the other source's threads go to sleep. Progress goes to standard error. Fails with
-// DIP_ERROR_RUNTIME if the first source's pictures differ between instruction sets or numbers of
-// threads.
+// the warm-up, with hashes and counters, become the results' `first` samples. Two sources take
+// turns after every frame. A pause of one millisecond before each timed frame then lets the other
+// source's threads go to sleep. Progress goes to standard error.
+//
+// Fails if draw() fails, with DIP_ERROR_MEMORY, and with DIP_ERROR_RUNTIME if the user presses
+// Ctrl-C or if the first source's pictures differ between instruction sets or numbers of threads.
 bool dip_bench_measure(const DipBenchPlan *plan, const DipBenchSource *sources, int source_count,
                        DipBenchResult *results, DipError *err);
 

@@ -17,11 +17,12 @@ enum {
     DIP_BENCH_MAX_VALUES = 32, // Greatest number of values of one axis.
     DIP_BENCH_MAX_COMBINATIONS = 512,
     DIP_BENCH_MAX_FRAMES = 10000,
-    DIP_BENCH_MAX_ROUNDS = 1000 // Estimates take time that grows with the cube of the rounds.
+    // Bounds the time of dip_times_fit, which grows with the cube of the number of rounds.
+    DIP_BENCH_MAX_ROUNDS = 1000
 };
 
 typedef struct DipBenchSet {
-    char text[80]; // The settings as they were typed.
+    char text[80]; // The settings as text: as the user typed them, or one of the default sets.
     DipQuality quality;
 } DipBenchSet;
 

@@ -18,7 +18,9 @@ typedef enum DipBenchAxis {
 } DipBenchAxis;
 
 typedef struct DipBenchPlan {
-    DipBenchOptions options;          // Only the list of grids may be empty.
+    // The options of the command line, with values for what it leaves open. Only the list of grids
+    // may be empty. Numbers of threads are at least 1.
+    DipBenchOptions options;
     int counts[DIP_BENCH_AXIS_COUNT]; // Number of values per axis, at least 1.
     // [combination][axis]: the index of the combination's value on the axis.
     int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];

@@ -25,9 +25,9 @@ void dip_bench_print_work(const DipBenchResult *result, FILE *out);
 // the ratios of the stages' medians.
 void dip_bench_print_ratios(const DipBenchResult *here, const DipBenchResult *other, FILE *out);
 
-// Writes a CSV line for each program, combination, round and frame. `count` is the number of
-// programs, 1 or 2. With 2 programs, the first column names the program. The file is written whole
-// or not at all.
+// Writes a heading, and a CSV line for each program, combination, round and frame. `count` is the
+// number of programs, 1 or 2. With 2 programs, the first column names the program. The file is
+// written whole or not at all.
 bool dip_bench_write_csv(const char *file, const DipBenchResult *results, int count, DipError *err);
 
 #endif
