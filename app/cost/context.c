@@ -200,9 +200,9 @@ static void average(const DipFrame *frame, int scale, int width, int height, dou
 // reference renderer cannot draw such a scene. Instead, the pipeline draws it larger (scale_of),
 // with 8 samples per pixel and advanced AF, and the pixels are averaged in linear light. Each half
 // has at least def->samples samples for each pixel, unless the frame would then be wider or higher
-// than DIP_MAX_FRAME_SIZE. If even a frame of twice the width and height would be, it is not drawn
-// larger. The truth cannot show a fault that the pipeline has at every size. The two halves have
-// different sample patterns.
+// than DIP_MAX_FRAME_SIZE. If twice the truth's width or height is already above
+// DIP_MAX_FRAME_SIZE, the scene is drawn at the truth's own size. The truth cannot show a fault
+// that the pipeline has at every size. The two halves have different sample patterns.
 static bool draw_gallery_truth(const DipTruthDef *def, int half, double *rgb_lin, DipError *err) {
     const DipCostContext *cost = def->context;
     const int scale = scale_of(def);

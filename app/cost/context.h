@@ -31,13 +31,16 @@ typedef struct DipCostForecast {
 typedef struct DipCostContext {
     const DipSession *session;
     DipCostReport *report;
-    DipCostJournal *journal; // NULL if no rows are judged or timed (steps.h).
+    // Keeps errors and times for the next run. NULL if this context is passed to none of
+    // dip_cost_judge, dip_cost_time_rows and dip_cost_predict (steps.h).
+    DipCostJournal *journal;
     const char *cache;       // Folder of the cached truths; NULL or "" for no cache.
     DipReference *reference; // NULL for scenes of the gallery, and if the context draws no truths.
     DipGallery *gallery;     // NULL for models.
     // Renderer [0] draws the rows with gi=off (without instancing) and keeps the copies of meshes
-    // that these rows need. Renderer [1] draws all other rows, so that they all use the same
-    // memory.
+    // that these rows need. Renderer [1] draws all other rows. A single renderer would free and
+    // make the copies again whenever gi changes, and rows would be timed with their data at other
+    // addresses.
     DipPainter *renderers[2];
     // The command line with which the program starts itself to time frames in other processes
     // (--starts). If it is NULL, all frames are timed in this process.
@@ -56,8 +59,8 @@ void dip_cost_context_close(DipCostContext *cost);
 
 // dip_cost_draw_timed draws the timed frame `index` of a path, 0..dip_cost_frame_count - 1. Call
 // dip_cost_prepare_timed with the same arguments before. dip_cost_prepare_timed lets the renderer's
-// history begin anew. If the settings blend frames with a history of earlier frames (taa=history),
-// dip_cost_prepare_timed then draws the frame before `index`, if there is one.
+// history begin anew. If frames are blended with a history of earlier frames (taa=history, for
+// models only), dip_cost_prepare_timed then draws the frame before `index`, if there is one.
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,

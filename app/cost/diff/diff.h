@@ -30,7 +30,7 @@ enum {
 
 // A combination of settings to compare.
 typedef struct DipCostDiffSet {
-    char text[80]; // The text that the user typed.
+    char text[80]; // The settings as text: as the user typed them, or one of the default sets.
     DipQuality quality;
 } DipCostDiffSet;
 
@@ -42,8 +42,8 @@ typedef struct DipCostDiffArguments {
     int side_count;
     DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
     int set_count;
-    // If measure.rounds is 0, there are DIP_COST_DIFF_ROUNDS rounds if both sides are programs, and
-    // 1 round if one side is a report.
+    // If measure.rounds is 0, each start has DIP_COST_DIFF_ROUNDS rounds if both sides are
+    // programs, and 1 round if only one side is.
     DipMeasureOptions measure;
     int frames;       // 0 means DIP_COST_DIFF_FRAMES. Used only if both sides are programs.
     double fail_over; // 1.03 for --fail-over 3%; 0 without this option.
@@ -90,15 +90,19 @@ typedef struct DipCostDiffRow {
     DipEstimate ratios[2];                          // Reports only: time / the baseline's time.
     // For programs B's time / A's time, for reports B's ratio / A's ratio, with the interval.
     DipEstimate change;
-    double surely_above; // The change is surely greater than this; see dip_cost_diff_mark.
-    double surely_below; // The change is surely less than this.
+    // The change is surely greater than surely_above and less than surely_below. For programs,
+    // these are the ends of its 95 % interval. For reports, they lie so far apart that the bounds
+    // of all rows hold together with a probability of 95 %.
+    double surely_above;
+    double surely_below;
     // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
     // time of the frame.
     DipEstimate stages[DIP_COST_DIFF_STAGES];
     DipCostDiffMark mark;
 } DipCostDiffRow;
 
-// What the times come from.
+// What the times come from. If one side is a report and the other a program, the program measures
+// a report, too, and the kind is DIP_COST_DIFF_REPORTS.
 typedef enum DipCostDiffKind {
     DIP_COST_DIFF_REPORTS, // Ratios to the baseline, measured in two runs.
     DIP_COST_DIFF_PROGRAMS // Two programs that took turns.
@@ -107,11 +111,12 @@ typedef enum DipCostDiffKind {
 typedef struct DipCostDiff {
     DipCostDiffKind kind;
     const char *names[2];      // As on the command line. Borrowed.
-    char machines[2][256];     // "Xeon, 2 threads, avx512"; "" if not known.
+    char machines[2][256];     // "Xeon, 2 threads, avx512"; for two programs "Xeon, 2 threads".
     char builds[2][33];        // Hash of the program's file; "" if not known.
-    char scene[DIP_COST_TEXT]; // "court.gltf, 640x480 pixels"; "" if not known.
+    char scene[DIP_COST_TEXT]; // "court.gltf, 640x480 pixels"; "" for two programs, and if reports
+                               // differ in scene or size.
     bool some_rows;    // True if one side is a program that measured only some rows of the other
-                       // side.
+                       // side's report.
     bool same_machine; // True if the sides' machines, threads and instruction sets are the same.
     bool has_times;    // True if the times may be compared.
     DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
@@ -121,8 +126,8 @@ typedef struct DipCostDiff {
     // Texts that say in what the sides differ as a whole, or what is not compared.
     char notes[DIP_COST_DIFF_MAX_NOTES][DIP_COST_DIFF_NOTE];
     int note_count;
-    char cause[512];   // The likely cause of a slowdown; "" if nothing is sure.
-    double limit;      // A row is slower if B surely takes more than this many times as long.
+    char cause[512];   // What dip_cost_diff_explain writes; "" for reports and if no row is slower.
+    double limit;      // A row is slower if its change is surely greater than this.
     double fail_over;  // The limit beyond which times and errors fail; 0 if there is none.
     int slower;        // Number of rows that are marked as slower.
     int faster;        // Number of rows that are marked as faster.
@@ -219,10 +224,10 @@ bool dip_cause_find(const DipCauseData *data, DipCause *cause, DipError *err);
 bool dip_cause_is_same_work(const DipCauseData *data, int a, int b);
 
 // Writes diff->cause from the times of two programs: the stage that takes most of the additional
-// time of the slower rows. If the comparison has at least four rows, slower or not, also
-// names the kind of work with which the additional time in this stage grows, if that is sure. In
-// `times` and `fit`, the subject 2 * row + side stands for a row on one side. Fails with
-// DIP_ERROR_MEMORY.
+// time of the slower rows. If the comparison has at least four rows, slower or not, also names the
+// kind of work with which the additional time in this stage grows, if this kind is sure
+// (dip_cause_find). In `times` and `fit`, the subject 2 * row + side stands for a row on one side.
+// Fails with DIP_ERROR_MEMORY.
 bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
                            DipError *err);
 
@@ -255,8 +260,9 @@ bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const c
 // Prints the comparison for a terminal. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_diff_print(const DipCostDiff *diff, FILE *out, DipError *err);
 
+extern const DipRecord dip_cost_diff_record; // The fields of a DipCostDiff in the JSON file.
+
 // Writes the comparison to a JSON file.
-extern const DipRecord dip_cost_diff_record; // The fields of a DipCostDiff in the file.
 bool dip_cost_diff_write_json(const DipCostDiff *diff, const char *file, DipError *err);
 
 #endif

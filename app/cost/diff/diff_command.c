@@ -22,8 +22,9 @@ static const double least_limit = 1.01;
 
 #define FIELD(name) offsetof(DipCostDiffArguments, name)
 
-// These sets of settings together use several samples per pixel, sample groups, anisotropic
-// filtering and compressed textures.
+// Together, these sets use several samples per pixel (aa), adaptive AA, which shades clipped
+// surfaces once per group of samples (aaa, asd), anisotropic filtering (af, aaf) and compressed
+// textures (opt).
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
                                    "aa=8,aaa=on,asd=2,af=16,aaf=on";
 
