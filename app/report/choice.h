@@ -22,15 +22,16 @@ extern const char *const dip_time_kind_names[DIP_TIME_KIND_COUNT]; // "p95", "me
 // A combination of settings that can be chosen.
 typedef struct DipCandidate {
     DipQuality quality;
-    DipEstimate time;    // Milliseconds per frame.
-    double common_error; // Standard error of the logarithm of the unknown factor by which all
-                         // candidates' times are too long or too short. time.log_error leaves this
-                         // error out.
-    double loss;         // FLIP for ranking: at least the FLIP that the noise of the converged
-                         // picture makes.
-    double flip;         // FLIP as it was measured.
-    int row;             // Index by which the caller finds the combination again.
-    int report;          // With several reports, index of the report that the time comes from.
+    DipEstimate time; // Milliseconds per frame.
+    // All candidates' times may be too long or too short by one common, unknown factor.
+    // common_error is the standard error of this factor's logarithm. time.log_error does not
+    // include this error.
+    double common_error;
+    double loss; // FLIP for ranking: the measured FLIP, or the FLIP that the noise of the
+                 // converged picture makes if that is greater.
+    double flip; // FLIP as it was measured.
+    int row;     // Index by which the caller finds the combination again.
+    int report;  // With several reports, index of the report that the time comes from.
 } DipCandidate;
 
 typedef struct DipCandidates {
@@ -78,10 +79,11 @@ typedef struct DipAdvice {
     // those that surely fit, the fastest first.
     int ties[DIP_ADVICE_TIES];
     int tie_count; // Number of all ties; the list has the first DIP_ADVICE_TIES.
-    int next; // The next better candidate than the chosen one (dip_next_better), or the fastest one
-              // if none is chosen; -1 if there is none or if the times are disturbed.
+    // The fastest candidate that is clearly better than the chosen one (DIP_CLEARLY_BETTER), or the
+    // fastest of all if none is chosen; -1 if there is none or if the times are disturbed.
+    int next;
     double next_ms; // How much longer `next` takes than the chosen candidate, or than the budget if
-                    // none is chosen.
+                    // none is chosen; 0 if `next` is -1.
     double next_fits; // Probability that `next` fits this budget; NAN if `next` is -1.
 } DipAdvice;
 

@@ -360,7 +360,7 @@ double dip_cost_floor_flip(const DipCostReport *report, int path);
 // proportional to the noise's variance as long as it is small. FLIP is dip_cost_floor_flip.
 DipMetrics dip_cost_floor_metrics(const DipCostReport *report, int path);
 
-// Returns a row's FLIP for ranking: at least dip_cost_floor_flip.
+// Returns a row's FLIP for ranking: its measured FLIP or, if this is greater, dip_cost_floor_flip.
 double dip_cost_ranking_flip(const DipCostReport *report, int row);
 
 // Returns whether a row's error is too small to be told from the truth's own noise.

@@ -313,8 +313,8 @@ static double fit_set(DipCostPictureSet *set, bool frames, double room, int *lef
         } else {
             ++*left_out;
         }
-        // If `frames` is true, the frame fits and takes the crop's place. Otherwise the crop does
-        // not fit.
+        // The crop goes in two cases: a whole frame that fits takes its place, or the crop itself
+        // does not fit.
         if (fits == frames) {
             drop(&picture->crop);
             drop(&picture->map);
