@@ -24,7 +24,8 @@ typedef struct DipControlDef {
     // "-" for standard input and output, or the path of a socket. Borrowed until the channel is
     // open.
     const char *where;
-    // The program's version, for the greeting. Borrowed until the channel is closed.
+    // The program's version, which the channel sends to each new client in its first line.
+    // Borrowed until the channel is closed.
     const char *version;
     void *context;
     // Carries out a request, or refuses it and fills *err. Adds the fields of the reply to `reply`,

@@ -1,4 +1,5 @@
-// Passes each call of a painter on to its scene renderer or to its pane of the gallery.
+// Passes the calls of a painter on to its scene renderer or to its pane of the gallery. Functions
+// that a pane of the gallery lacks do nothing or fail.
 #include "app/session/painter.h"
 
 #include <stdlib.h>

@@ -2,8 +2,9 @@
 //
 //     Software             Diptych 1.0.0
 //     Scene                file of the first model, or name of the gallery's scene
-//     Path                 "AA", a file or a model's camera, "orbit", "pose", "free camera", or
-//                          "scene" for the gallery
+//     Path                 a category of camera paths such as "AA", a path's file, a model's
+//                          camera, "orbit", "pose", "free camera", or "scene" for the path that a
+//                          scene of the gallery has
 //     Time                 "3.25 s", the time that the picture shows
 //     Pose                 "x y z qx qy qz qw", as --pose takes it
 //     Field of view        "55", vertical, in degrees, as --fov takes it

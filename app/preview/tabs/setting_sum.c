@@ -296,8 +296,9 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 // --- the sum -------------------------------------------------------------------------------------
 
 // Writes the note beside the sum. The note says that the sum is doubtful, how far it exceeds the
-// budget, or what its 95 % interval is; the note is empty if none of these applies. If the sum
-// holds for a path, the text of the excess or of the interval says so.
+// budget, or what its 95 % interval is; the note is empty if none of these applies. A note of the
+// excess or of the interval ends with " along the path" if the sum is the price of a path and not
+// of the picture in view (dip_pane_time_scope).
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     const double budget_ms = window->state->budget_ms;
     const char *scope = dip_pane_time_scope(window, sum);
@@ -316,8 +317,8 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
     }
 }
 
-// Draws the sum and a note beside it. If room is short, the letters of the sum become as small as
-// those of the note, so that the number is not cut.
+// Draws the sum and a note beside it. If room is short, the letters of the sum shrink until the sum
+// fits, but not below the size of the note's letters. A note that does not fit whole is left out.
 static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum, DipRect rect) {
     const bool over =
         sum->ms > window->state->budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
@@ -384,7 +385,8 @@ static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum
     }
 }
 
-// Draws the current pane's time, and the errors of both panes.
+// Draws the current pane's time. If the FLIP of both panes is known and the current pane's is above
+// 0, also draws both values, and by how much they differ in per cent.
 static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
                             DipRect line) {
     const DipPriceSum now = dip_pane_sum(window, DIP_PANE_CURRENT);
@@ -473,9 +475,10 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     line.height = dip_ui_px(ui, BUDGET_HEIGHT);
     draw_budget(ui, &parts, shown.ms, window->state->budget_ms, line);
     const int buttons = dip_ui_px(ui, 28), gap = dip_ui_px(ui, 4);
+    // The legend gets only the room that progress and warnings (source_height) leave.
     const int spare = rest.height - buttons - gap - source_height(ui, window, rest.width);
     line = dip_cut_top(&rest, dip_max(0, dip_min(dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3), spare)));
-    if (line.height >= note) { // Progress and warnings (source_height) come before the legend.
+    if (line.height >= note) {
         line.height = note;
         draw_legend(ui, &shown, &parts, line);
     }

@@ -10,7 +10,8 @@
 #include "app/preview/state/tool_state.h"
 #include "app/session/session.h"
 
-enum { DIP_PANE_GAP_PX = 2 }; // Width of the gap between the panes.
+// Width of the gap between the panes. In a window of odd width, the gap is one pixel wider.
+enum { DIP_PANE_GAP_PX = 2 };
 
 typedef enum DipDockSide { DIP_DOCK_BELOW, DIP_DOCK_DRAWER } DipDockSide;
 
