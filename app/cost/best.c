@@ -67,7 +67,7 @@ bool dip_cost_measure_best(DipCostReport *report, DipPool *pool, DipCostMeasure 
     DipCostModels models;
     bool done = predict(report, pool, &models, err);
     if (done) {
-        report->predicted.errors_left_out = dip_cost_flip_left_out(&models);
+        report->predicted.errors_left_out = dip_flip_model_left_out(&models.flip);
     }
     // With a red verdict, no settings will be advised, so none are looked for.
     const int goes = report->verdict == DIP_COST_RED ? 0 : dip_cost_most_goes(&report->options);

@@ -1,4 +1,5 @@
-// Computes what measuring a combination probably gains, and chooses those that gain most.
+// Computes by what share measuring a combination probably lowers the FLIP that is advised for a
+// budget (its gain), and chooses the combinations with the greatest gains.
 #include "app/cost/steps.h"
 
 #include <math.h>
@@ -9,13 +10,16 @@ enum {
     FRONT = 5   // Greatest number of combinations that are added for the Pareto front.
 };
 
-// Nine of ten times lie within this many standard deviations of their predictions.
+// 90 % of measured times lie within this many standard deviations of their predictions.
 static const double deviations = 1.645;
 
-// Bounds of the miss of nine of ten times.
+// The 90th percentile of the misses of times (DipCostMisses.p90) is bounded to this range before
+// the standard deviation of times is computed from it.
 static const double least_miss = 0.02, most_miss = 0.25;
 
-// If fewer best combinations than this have been measured, their misses tell nothing.
+// Least number of rows that were measured after they had been predicted whose misses are used
+// (predicted.times). With fewer rows, the misses of the rows of the training are used
+// (predicted.times_left_out).
 enum { ENOUGH_MISSES = 8 };
 
 DipCostAim dip_cost_aim(const DipCostReport *report, int budget) {
@@ -41,8 +45,8 @@ static double normal(double x) {
     return 0.5 * erfc(-x / sqrt(2.0));
 }
 
-// Returns by how much FLIP is expected to be below `loss`, as a share of `loss`; where it is above,
-// by 0. Its logarithm is normal.
+// Returns the expected value of max(0, loss - FLIP) / loss. The logarithm of FLIP is normal, with
+// the mean log(flip) and the standard deviation `error`.
 static double expected_below(double loss, double flip, double error) {
     const double z = log(loss / flip) / error;
     return normal(z) - flip / loss * exp(0.5 * error * error) * normal(z - error);
@@ -53,7 +57,8 @@ double dip_cost_gain(const DipCostAim *aim, double ms, double flip, double error
         return 0.0;
     }
     const double fits = normal(log(aim->budget_ms / ms) / aim->time_error);
-    // What would be gained below the floor cannot be told.
+    // FLIP below the floor cannot be told from the noise of the truth, so the part of the gain that
+    // lies below the floor does not count.
     const double below =
         aim->floor > 0.0 ? aim->floor / aim->loss * expected_below(aim->floor, flip, error) : 0.0;
     return fits * (expected_below(aim->loss, flip, error) - below);
@@ -67,8 +72,10 @@ typedef struct Promising {
     DipCostModels *models;
     int *list;
     int count;
-    double *gains;  // [prediction]: at most what it gains for the budget.
-    int *distances; // [prediction][known combination]
+    double *gains;  // [prediction]: an upper bound of its gain for the current budget, but for the
+                    // small rise that find_most neglects. INFINITY until the gain is computed.
+    int *distances; // [measured or listed combination]: distances of the combination for which
+                    // find_distances was called last.
 } Promising;
 
 static bool is_listed(const Promising *promising, int index) {
@@ -82,34 +89,35 @@ static bool is_listed(const Promising *promising, int index) {
 // Writes the distances of a combination to those that are measured or listed.
 static void find_distances(const Promising *promising, int index) {
     const DipCostPrediction *predictions = promising->report->predicted.list;
-    const int measured = promising->models->correction_count;
-    dip_cost_find_distances(promising->models, measured, &predictions[index].quality,
-                            promising->distances);
+    const int measured = promising->models->flip.count;
+    dip_flip_model_distances(&promising->models->flip, &predictions[index].quality,
+                             promising->distances);
     for (int i = 0; i < promising->count; i++) {
-        promising->distances[measured + i] = dip_cost_distance(
-            &predictions[promising->list[i]].quality, &predictions[index].quality, ~0u);
+        promising->distances[measured + i] =
+            dip_cost_distance(&predictions[promising->list[i]].quality, &predictions[index].quality,
+                              ~0u, promising->models->flip.weights);
     }
 }
 
 static double gain_of(const Promising *promising, const DipCostAim *aim, int index) {
-    const DipCostModels *models = promising->models;
     const DipCostPrediction *p = &promising->report->predicted.list[index];
     const bool is_mean = promising->report->options.budget_of == DIP_TIME_MEAN;
     find_distances(promising, index);
-    const double variance =
-        models->flip_variance * dip_cost_process_variance(&models->of_flip, promising->distances);
-    return dip_cost_gain(aim, is_mean ? p->ms : p->p95_ms, p->flip, sqrt(variance));
+    const double error = dip_flip_model_error(&promising->models->flip, promising->distances);
+    return dip_cost_gain(aim, is_mean ? p->ms : p->p95_ms, p->flip, error);
 }
 
-// Lists a combination, and makes it known.
+// Lists a combination, and makes it known to models->flip.process.
 static void add(Promising *promising, int index) {
     find_distances(promising, index);
-    dip_cost_process_add(&promising->models->of_flip, promising->distances);
+    dip_cost_process_add(&promising->models->flip.process, promising->distances);
     promising->list[promising->count++] = index;
 }
 
-// Returns the combination that gains most, or -1 if none gains enough. What one gains only falls
-// when others are listed, so only those are computed anew that gained more before.
+// Returns the combination that gains most, or -1 if none gains enough. A gain
+// changes only when another combination is listed, and then it mostly falls. So the stored gain
+// serves as an upper bound, and is computed anew only if it is at least the greatest gain found so
+// far. That a gain far above others may rise a little is neglected.
 static int find_most(Promising *promising, const DipCostAim *aim) {
     double most = DIP_COST_LEAST_GAIN;
     int found = -1;
@@ -160,7 +168,7 @@ static bool add_front(Promising *promising, DipError *err) {
 
 int dip_cost_list_promising(const DipCostReport *report, DipCostModels *models, bool front,
                             int list[DIP_COST_MOST_PROMISING], DipError *err) {
-    const size_t known = (size_t)models->correction_count + DIP_COST_MOST_PROMISING;
+    const size_t known = (size_t)models->flip.count + DIP_COST_MOST_PROMISING;
     Promising promising = {
         .report = report,
         .models = models,

@@ -28,23 +28,23 @@ int dip_cost_training_count(unsigned settings, int count) {
     return training < count ? training : count;
 }
 
-// Writes the terms of the models (fit.h) for all stages and for FLIP. The first term of each of
-// them is constant; a single term, 1, stands for all of these. Returns the number of terms.
+// Writes the terms of all stages (fit.h). Each stage has a constant term; one term, 1,
+// stands for the constant terms of all stages. Returns the number of terms.
 static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
     int count = 0;
     terms[count++] = 1.0;
-    for (int part = 0; part < DIP_COST_PART_COUNT; part++) {
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
         double amounts[DIP_COST_MAX_TERMS];
-        dip_cost_terms(part, prediction->counters, &prediction->quality, amounts);
-        DIP_ASSERT(count + dip_cost_term_count(part) - 1 <= DESIGN_TERMS);
-        for (int t = 1; t < dip_cost_term_count(part); t++) {
+        dip_cost_terms(stage, prediction->counters, &prediction->quality, amounts);
+        DIP_ASSERT(count + dip_cost_term_count(stage) - 1 <= DESIGN_TERMS);
+        for (int t = 1; t < dip_cost_term_count(stage); t++) {
             terms[count++] = amounts[t];
         }
     }
     return count;
 }
 
-bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err) {
+bool dip_cost_choose_timed(const DipCostReport *report, int count, int *chosen, DipError *err) {
     const DipCostPredictions *predicted = &report->predicted;
     double *matrix = malloc((size_t)predicted->count * DESIGN_TERMS * sizeof *matrix);
     if (!matrix) {
@@ -70,6 +70,17 @@ bool dip_cost_choose_training(const DipCostReport *report, int count, int *chose
     return true;
 }
 
+bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err) {
+    const DipCostPredictions *predicted = &report->predicted;
+    int given = 0;
+    for (int i = 0; i < predicted->count && given < count; i++) {
+        given += predicted->list[i].row >= 0;
+    }
+    const int half = given + (count - given) / 2;
+    return dip_cost_choose_timed(report, half, chosen, err) &&
+           (dip_flip_model_design(predicted, half, count, chosen) || dip_cost_out_of_memory(err));
+}
+
 // --- the whole -----------------------------------------------------------------------------------
 
 // Measures the combinations that tell most about all others.
@@ -92,7 +103,7 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
         return false;
     }
     dip_cost_scale_counters(report);
-    predicted->times_left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
+    predicted->times_left_out = dip_cost_model_leave_one_out(report, rows, count);
     for (int i = 0; i < count; i++) {
         DipCostPrediction *p = &predicted->list[chosen[i]];
         p->ms = dip_cost_ms(report, p->row);
@@ -102,8 +113,8 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
     return true;
 }
 
-// Lists the combinations of the settings that change a picture, as the sweeps tell, and fills in
-// their counters.
+// Measures the errors of the sweeps, and drops the settings whose steps all draw the same pictures.
+// Then lists the combinations of the other combined settings, and fills in their counters.
 static bool list_combinations(DipCostContext *cost, DipError *err) {
     dip_cost_begin_phase(cost, DIP_COST_PHASE_SWEEPS);
     if (!dip_cost_judge(cost, err)) {

@@ -28,14 +28,15 @@ typedef struct Found {
 typedef struct Best {
     Found (*budgets)[DIP_COST_PER_BUDGET];
     Found bins[BINS];
-    int *distances; // [group][correction]: see try_groups.
+    int *distances; // [group][measured combination]: see try_groups.
 } Best;
 
 // The options of one group of settings (combinations.h): the baseline, and the combinations that
 // differ from it in this group alone.
 typedef struct Options {
     const DipCostPrediction **list;
-    // [option][correction]: distance of an option and a measured combination in this group.
+    // [option][measured combination]: distance of an option and a measured combination in this
+    // group.
     int *apart;
     int count;
 } Options;
@@ -56,7 +57,7 @@ static bool is_better(const Found *a, const Found *b) {
            (a->loss == b->loss && a->ms < b->ms); // NOLINT: exactly equal losses are meant.
 }
 
-// Puts the combination into a budget's list, if it gains more than one there.
+// Puts the combination into a budget's list if its gain is greater than the least gain there.
 static void insert(Found list[DIP_COST_PER_BUDGET], const Found *found) {
     int at = DIP_COST_PER_BUDGET;
     while (at > 0 && (!list[at - 1].is_found || found->gain > list[at - 1].gain)) {
@@ -68,28 +69,14 @@ static void insert(Found list[DIP_COST_PER_BUDGET], const Found *found) {
     }
 }
 
-// The variance of the logarithm of FLIP, and an upper bound of it: what the nearest measured
-// combination alone leaves.
-static double variance_of(const DipCostModels *models, const int *distances) {
-    return models->flip_variance * dip_cost_process_variance(&models->of_flip, distances);
-}
-
-static double most_variance(const DipCostModels *models, const int *distances) {
-    const double *covariance = models->of_flip.covariance;
-    double most = 0.0;
-    for (int c = 0; c < models->correction_count; c++) {
-        most = fmax(most, covariance[distances[c]]);
-    }
-    return models->flip_variance *
-           (covariance[0] - most * most / (covariance[0] + models->of_flip.own));
-}
-
 // Puts the combination into the list of each budget for which it gains much, and into its bin, if
 // it is the best there. `ms` is its mean time if budgets limit the mean, otherwise its 95th
-// percentile. The exact variance takes long, so it is computed only if the bound would do.
+// percentile. The error of FLIP takes long to compute, so it is computed only if its upper bound
+// would make the gain great enough.
 static void keep(const Search *search, Best *best, const Found *found, double ms, double flip,
                  const int *distances) {
-    const double bound = sqrt(most_variance(search->models, distances));
+    const DipFlipModel *model = &search->models->flip;
+    const double bound = dip_flip_model_error_bound(model, distances);
     double error = NAN;
     for (int b = 0; b < search->report->options.budget_count; b++) {
         const Found *last = &best->budgets[b][DIP_COST_PER_BUDGET - 1];
@@ -97,7 +84,7 @@ static void keep(const Search *search, Best *best, const Found *found, double ms
             last->is_found ? fmax(last->gain, DIP_COST_LEAST_GAIN) : DIP_COST_LEAST_GAIN;
         if (dip_cost_gain(&search->aims[b], ms, flip, bound) >= least) {
             Found of_budget = *found;
-            error = isnan(error) ? sqrt(variance_of(search->models, distances)) : error;
+            error = isnan(error) ? dip_flip_model_error(model, distances) : error;
             of_budget.gain = dip_cost_gain(&search->aims[b], ms, flip, error);
             if (of_budget.gain >= least) {
                 insert(best->budgets[b], &of_budget);
@@ -113,7 +100,7 @@ static void keep(const Search *search, Best *best, const Found *found, double ms
 
 static bool is_measured(const Search *search, const int *distances) {
     bool measured = false;
-    for (int c = 0; c < search->models->correction_count && !measured; c++) {
+    for (int c = 0; c < search->models->flip.count && !measured; c++) {
         measured = distances[c] == 0;
     }
     return measured;
@@ -146,16 +133,17 @@ static void predict(const Search *search, Best *best, const DipWorkSum *sum,
 // up to this one. `distances` holds the distances in the groups before this one, one for each
 // measured combination, and the results are written behind them.
 static void compare(const Search *search, const Options *options, int option, int *distances) {
-    const int count = search->models->correction_count;
+    const int count = search->models->flip.count;
     const int *apart = options->apart + (size_t)option * (size_t)count;
     for (int c = 0; c < count; c++) {
         distances[count + c] = distances[c] + apart[c];
     }
 }
 
-// Tries all options of this group, each with all options of the groups after it. `distances`
-// holds those of the tried combination to each measured one in the settings of the groups before
-// this one (compare), and has room behind for the same of each group from this one on.
+// Tries all options of this group, each with all options of the groups after it. `distances` holds
+// the distances of the tried combination to the measured combinations in the settings of the groups
+// before this group (compare). Behind them, it has room for such distances for this group and for
+// each later group.
 static void try_groups(const Search *search, Best *best, int group, const DipWorkSum *sum,
                        const DipQuality *quality, int *distances) {
     if (group == DIP_WORK_GROUPS) {
@@ -172,8 +160,7 @@ static void try_groups(const Search *search, Best *best, int group, const DipWor
             dip_work_add(&more, &option->quality, option->counters);
         }
         compare(search, options, i, distances);
-        try_groups(search, best, group + 1, &more, &with,
-                   distances + search->models->correction_count);
+        try_groups(search, best, group + 1, &more, &with, distances + search->models->flip.count);
     }
 }
 
@@ -186,12 +173,12 @@ static void run_task(void *context, int index, int worker) {
     (void)worker;
     sum.corners = &search->corners;
     dip_work_add(&sum, &samples->quality, samples->counters);
-    for (int c = 0; c < search->models->correction_count; c++) {
+    for (int c = 0; c < search->models->flip.count; c++) {
         best->distances[c] = 0;
     }
     compare(search, &search->groups[0], index, best->distances);
     try_groups(search, best, 1, &sum, &samples->quality,
-               best->distances + search->models->correction_count);
+               best->distances + search->models->flip.count);
 }
 
 // --- what a search begins and ends with ----------------------------------------------------------
@@ -275,10 +262,10 @@ static void end_search(const Search *search, DipCostReport *report) {
 // What a search allocates.
 typedef struct Room {
     const DipCostPrediction **options;   // [group][option]
-    int *apart;                          // [group][option][correction]
+    int *apart;                          // [group][option][measured combination]
     Best *tasks;                         // [option of group 0]
     Found (*found)[DIP_COST_PER_BUDGET]; // [task][budget]
-    int *distances; // [task][group][correction]: before the first group, and after each.
+    int *distances; // [task][group][measured combination]: before the first group, and after each.
 } Room;
 
 static void free_room(Room *room) {
@@ -291,7 +278,7 @@ static void free_room(Room *room) {
 
 // Computes the distance of each option and each measured combination in the option's group.
 static bool compare_options(Search *search, Room *room) {
-    const size_t count = (size_t)search->models->correction_count;
+    const size_t count = (size_t)search->models->flip.count;
     size_t options = 0;
     for (int g = 0; g < DIP_WORK_GROUPS; g++) {
         options += (size_t)search->groups[g].count;
@@ -301,9 +288,9 @@ static bool compare_options(Search *search, Room *room) {
         search->groups[g].apart = apart;
         for (int i = 0; i < search->groups[g].count; i++) {
             for (size_t c = 0; c < count; c++) {
-                *apart++ =
-                    dip_cost_distance(&search->models->corrections[c].quality,
-                                      &search->groups[g].list[i]->quality, dip_work_group(g));
+                *apart++ = dip_cost_distance(&search->models->flip.known[c],
+                                             &search->groups[g].list[i]->quality, dip_work_group(g),
+                                             search->models->flip.weights);
             }
         }
     }
@@ -313,7 +300,7 @@ static bool compare_options(Search *search, Room *room) {
 // Makes a task for each option of group 0.
 static bool make_tasks(Search *search, Room *room) {
     const size_t budgets = (size_t)search->report->options.budget_count;
-    const size_t distances = (size_t)search->models->correction_count * (DIP_WORK_GROUPS + 1);
+    const size_t distances = (size_t)search->models->flip.count * (DIP_WORK_GROUPS + 1);
     const size_t tasks = (size_t)search->groups[0].count;
     search->tasks = room->tasks = calloc(tasks, sizeof *room->tasks);
     room->found = calloc(tasks * budgets + 1, sizeof *room->found);

@@ -5,7 +5,7 @@
 #define DIP_APP_COST_STEPS_H
 
 #include "app/cost/context.h"
-#include "app/cost/process.h"
+#include "app/report/flip_model.h"
 #include "app/report/fit.h"
 
 // Finds out with fewer than a hundred frames how busy other programs keep the machine: times the
@@ -135,10 +135,15 @@ enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0, spread evenly, whose 
 // Returns at most `count`.
 int dip_cost_training_count(unsigned settings, int count);
 
-// Chooses the combinations to measure: those that tell most about the price of each kind of work
-// (fit.h) and about FLIP, by a D-optimal design. Writes their `count` indices in report->predicted
-// to `chosen`. The first of them are the combinations that have a row already or, if there are
-// none, the baseline. Fails with DIP_ERROR_MEMORY.
+// Chooses the combinations to time: those that tell most about the price of each kind of work
+// (fit.h), by a D-optimal design. Writes their `count` indices in report->predicted to `chosen`.
+// The first of them are the combinations that have a row already or, if there are none, the
+// baseline. Fails with DIP_ERROR_MEMORY.
+bool dip_cost_choose_timed(const DipCostReport *report, int count, int *chosen, DipError *err);
+
+// Chooses the combinations to measure, which tell most about times and about FLIP. Writes their
+// indices as dip_cost_choose_timed does. Of those that have no row yet, that function chooses one
+// half, and dip_flip_model_design the other. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err);
 
 // Indices of the values that are predicted for a combination.
@@ -149,37 +154,25 @@ enum {
     DIP_COST_PREDICTED // Number of values.
 };
 
-// A measured combination, from which others are predicted (process.h): its share in each value.
-typedef struct DipCostCorrection {
-    DipQuality quality;
-    double shares[DIP_COST_PREDICTED];
-} DipCostCorrection;
-
 // What the combinations that have a row tell about all others.
 typedef struct DipCostModels {
     DipCostModel times;
-    double p95;      // The usual ratio of the 95th percentile of the frames' times to their mean.
-    double log_flip; // Mean of the logarithms of FLIP.
-    double flip_variance;           // The variance of a logarithm of FLIP over that of the process.
-    DipCostProcess of_times;        // Of the logarithms of what the model of times misses.
-    DipCostProcess of_flip;         // Of the logarithms of FLIP.
-    DipCostCorrection *corrections; // Owned.
-    int correction_count;
+    double p95;        // The usual ratio of the 95th percentile of the frames' times to their mean.
+    DipFlipModel flip; // Knows the combinations that have a row (flip.known).
+    DipCostProcess of_times; // Of the logarithms of what the model of times misses.
+    // [combination of flip.known]: its share in the corrections of means, and in those of 95th
+    // percentiles (process.h).
+    double *ms_shares;  // Owned.
+    double *p95_shares; // Part of ms_shares.
 } DipCostModels;
 
 // Fits the models. Free them even after a failure. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipError *err);
 void dip_cost_models_free(DipCostModels *models);
 
-// Summarises how the FLIP of each measured combination is predicted from all others.
-DipCostMisses dip_cost_flip_left_out(const DipCostModels *models);
-
-// Writes the distances (process.h) of a combination to the first `count` measured ones.
-void dip_cost_find_distances(const DipCostModels *models, int count, const DipQuality *quality,
-                             int *distances);
-
-// Predicts a combination with these counters and these distances to all measured ones. Its time is
-// the model's, corrected by what the model misses at others; its FLIP is that of the process.
+// Predicts a combination with these counters and these distances to all measured ones
+// (dip_flip_model_distances). Its time is the model's, corrected by what the model misses at
+// others.
 void dip_cost_predict_one(const DipCostModels *models, const double *counters,
                           const DipQuality *quality, const int *distances,
                           double values[DIP_COST_PREDICTED]);
@@ -217,8 +210,8 @@ bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *
 
 // Lists the combinations that should be measured and have no row yet. For each budget these are
 // some that gain most, one after another: each that is listed makes the FLIP of those that are
-// alike less uncertain, and so is added to models->of_flip. If `front` is true, some on the Pareto
-// front of predicted or measured time and FLIP (dip_front, choice.h) are added. Writes their
+// alike less uncertain, and so is added to models->flip.process. If `front` is true, some on the
+// Pareto front of predicted or measured time and FLIP (dip_front, choice.h) are added. Writes their
 // indices in report->predicted to `list`. Returns their number, or -1 and fills *err.
 enum { DIP_COST_MOST_PROMISING = 24 };
 int dip_cost_list_promising(const DipCostReport *report, DipCostModels *models, bool front,

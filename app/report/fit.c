@@ -1,4 +1,4 @@
-// Fits the models of times and of FLIP, and judges them.
+// Fits the model of times, and judges it.
 #include "app/report/fit.h"
 
 #include "app/measure/stats/least_squares.h"
@@ -12,23 +12,17 @@
 // on three paths.
 static const double there_weight = 30.0;
 
-// The ridge of the fit of FLIP, as a share of the summed weight of the rows. Without a ridge, two
-// terms that the rows do not tell apart would get great prices of opposite sign.
-static const double flip_ridge = 1e-5;
-
 // A measurement to which prices are fitted: a row, or a combination that was timed elsewhere.
 typedef struct Sample {
     const double *counters;
     const double *stage_ms;
     const DipQuality *quality;
-    double whole; // The time of the frame, or its FLIP; 0 if it is not known.
+    double ms; // The sum of stage_ms; 0 if the times are not known.
 } Sample;
 
-// The least-squares equations of the parts that are fitted: all stages, or FLIP.
+// The least-squares equations of each stage.
 typedef struct Equations {
-    DipCostModelled what;
-    int first, end; // The parts from `first` to end - 1.
-    DipNormalEquations parts[DIP_COST_PART_COUNT];
+    DipNormalEquations stages[DIP_COST_STAGE_COUNT];
     int known; // Number of rows, and of combinations in `there`, that were added.
 } Equations;
 
@@ -40,35 +34,31 @@ static double sum_stages(const double stage_ms[DIP_COST_STAGE_COUNT]) {
     return ms;
 }
 
-static Sample sample_of(const DipCostReport *report, DipCostModelled what, int row) {
+static Sample sample_of(const DipCostReport *report, int row) {
     const DipCostRow *r = &report->rows[row];
-    const double whole =
-        what == DIP_COST_TIME ? sum_stages(r->stage_ms) : dip_cost_row_metrics(report, row, 0).flip;
-    return (Sample){r->counters, r->stage_ms, &r->quality, whole};
+    return (Sample){r->counters, r->stage_ms, &r->quality, sum_stages(r->stage_ms)};
 }
 
 // Returns the sample of the row rows[index], or of the row `index` if `rows` is NULL.
-static Sample sample_at(const DipCostReport *report, DipCostModelled what, const int *rows,
-                        int index) {
-    return sample_of(report, what, rows ? rows[index] : index);
+static Sample sample_at(const DipCostReport *report, const int *rows, int index) {
+    return sample_of(report, rows ? rows[index] : index);
 }
 
 static Sample elsewhere_sample(const DipCostElsewhere *row) {
     return (Sample){row->counters, row->stage_ms, &row->quality, sum_stages(row->stage_ms)};
 }
 
-// Adds a sample `weight` times. A weight of -1 takes it away. Returns false if its value is not
+// Adds a sample `weight` times. A weight of -1 takes it away. Returns false if its time is not
 // known.
 static bool add(Equations *equations, const Sample *sample, double weight) {
     double amounts[DIP_COST_MAX_TERMS];
-    if (!(sample->whole > 0.0)) {
+    if (!(sample->ms > 0.0)) {
         return false;
     }
-    for (int part = equations->first; part < equations->end; part++) {
-        const double value = part == DIP_COST_PART_FLIP ? sample->whole : sample->stage_ms[part];
-        dip_cost_terms(part, sample->counters, sample->quality, amounts);
-        dip_normal_equations_add(&equations->parts[part], amounts, value,
-                                 weight / (sample->whole * sample->whole));
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        dip_cost_terms(stage, sample->counters, sample->quality, amounts);
+        dip_normal_equations_add(&equations->stages[stage], amounts, sample->stage_ms[stage],
+                                 weight / (sample->ms * sample->ms));
     }
     return true;
 }
@@ -81,78 +71,60 @@ static void add_elsewhere(Equations *equations, const DipCostElsewhere *list, in
     }
 }
 
-static void enlarge_scale(const Sample *sample, int part, double scale[DIP_COST_MAX_TERMS]) {
+static void enlarge_scale(const Sample *sample, int stage, double scale[DIP_COST_MAX_TERMS]) {
     double amounts[DIP_COST_MAX_TERMS];
-    dip_cost_terms(part, sample->counters, sample->quality, amounts);
-    for (int t = 0; t < dip_cost_term_count(part); t++) {
+    dip_cost_terms(stage, sample->counters, sample->quality, amounts);
+    for (int t = 0; t < dip_cost_term_count(stage); t++) {
         scale[t] = fmax(scale[t], amounts[t]);
     }
 }
 
-// Starts the equations of a part. Each term is scaled by its greatest amount. The scale of FLIP's
-// terms is 1, because their amounts are at most 1.
-static void begin_part(Equations *equations, const DipCostReport *report, const int *rows,
-                       int count, int part) {
-    double scale[DIP_COST_MAX_TERMS];
-    for (int t = 0; t < DIP_COST_MAX_TERMS; t++) {
-        scale[t] = part == DIP_COST_PART_FLIP;
-    }
+// Starts the equations of a stage. Each term is scaled by its greatest amount.
+static void begin_stage(Equations *equations, const DipCostReport *report, const int *rows,
+                        int count, int stage) {
+    double scale[DIP_COST_MAX_TERMS] = {0.0};
     for (int r = 0; r < count; r++) {
-        const Sample sample = sample_at(report, equations->what, rows, r);
-        enlarge_scale(&sample, part, scale);
+        const Sample sample = sample_at(report, rows, r);
+        enlarge_scale(&sample, stage, scale);
     }
     for (int i = 0; i < report->smaller_count; i++) {
         const Sample sample = elsewhere_sample(&report->smaller[i]);
-        enlarge_scale(&sample, part, scale);
+        enlarge_scale(&sample, stage, scale);
     }
-    dip_normal_equations_begin(&equations->parts[part], dip_cost_term_count(part), scale);
+    dip_normal_equations_begin(&equations->stages[stage], dip_cost_term_count(stage), scale);
 }
 
-// Makes the equations of some rows. The equations of times also get the combinations that
-// were timed at a smaller size.
-static void begin(Equations *equations, const DipCostReport *report, DipCostModelled what,
-                  const int *rows, int count) {
-    const bool is_time = what == DIP_COST_TIME;
-    equations->what = what;
-    equations->first = is_time ? 0 : DIP_COST_PART_FLIP;
-    equations->end = is_time ? DIP_COST_STAGE_COUNT : DIP_COST_PART_COUNT;
+// Makes the equations of some rows and of the combinations that were timed at a smaller size.
+static void begin(Equations *equations, const DipCostReport *report, const int *rows, int count) {
     equations->known = 0;
-    for (int part = equations->first; part < equations->end; part++) {
-        begin_part(equations, report, rows, count, part);
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        begin_stage(equations, report, rows, count, stage);
     }
-    if (is_time) {
-        add_elsewhere(equations, report->smaller, report->smaller_count, 1.0);
-    }
+    add_elsewhere(equations, report->smaller, report->smaller_count, 1.0);
     for (int r = 0; r < count; r++) {
-        const Sample sample = sample_at(report, what, rows, r);
+        const Sample sample = sample_at(report, rows, r);
         equations->known += add(equations, &sample, 1.0);
     }
 }
 
 static DipCostModel solve(const Equations *equations) {
-    DipCostModel model = {.what = equations->what, .rows = equations->known};
-    for (int part = equations->first; part < equations->end; part++) {
-        const DipNormalEquations *e = &equations->parts[part];
-        if (part == DIP_COST_PART_FLIP) {
-            dip_least_squares_ridge(e, flip_ridge * e->left[0][0], model.prices[part]);
-        } else {
-            dip_least_squares_nonnegative(e, model.prices[part]);
-        }
+    DipCostModel model = {.rows = equations->known};
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        dip_least_squares_nonnegative(&equations->stages[stage], model.prices[stage]);
     }
     return model;
 }
 
-DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
-                                int count) {
+DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count) {
     Equations equations;
-    begin(&equations, report, what, rows, count);
+    begin(&equations, report, rows, count);
     return solve(&equations);
 }
 
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count) {
     Equations equations;
-    begin(&equations, report, DIP_COST_TIME, rows, count);
+    begin(&equations, report, rows, count);
     add_elsewhere(&equations, there, there_count,
                   there_weight * (equations.known + report->smaller_count) / there_count);
     equations.known += there_count;
@@ -162,18 +134,13 @@ DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *ro
 double dip_cost_model_value(const DipCostModel *model,
                             const double counters[DIP_COST_COUNTER_COUNT],
                             const DipQuality *quality) {
-    const bool is_time = model->what == DIP_COST_TIME;
-    const double value = dip_cost_sum_terms(is_time ? 0 : DIP_COST_PART_FLIP,
-                                            is_time ? DIP_COST_STAGE_COUNT : DIP_COST_PART_COUNT,
-                                            model->prices, counters, quality);
-    return is_time ? value : fmax(value, 0.0);
+    return dip_cost_sum_terms(0, DIP_COST_STAGE_COUNT, model->prices, counters, quality);
 }
 
 // --- misses --------------------------------------------------------------------------------------
 
 static double miss_of(const DipCostModel *model, const Sample *sample) {
-    return fabs(dip_cost_model_value(model, sample->counters, sample->quality) / sample->whole -
-                1.0);
+    return fabs(dip_cost_model_value(model, sample->counters, sample->quality) / sample->ms - 1.0);
 }
 
 DipCostMisses dip_cost_misses_of(double *misses, int count) {
@@ -194,15 +161,15 @@ DipCostMisses dip_cost_misses_of(double *misses, int count) {
     };
 }
 
-DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostModelled what,
-                                           const int *rows, int count) {
+DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows,
+                                           int count) {
     Equations equations;
     double misses[DIP_COST_MAX_ROWS];
     int known = 0;
     DIP_ASSERT(count <= DIP_COST_MAX_ROWS);
-    begin(&equations, report, what, rows, count);
+    begin(&equations, report, rows, count);
     for (int r = 0; r < count; r++) {
-        const Sample sample = sample_at(report, what, rows, r);
+        const Sample sample = sample_at(report, rows, r);
         if (add(&equations, &sample, -1.0)) {
             const DipCostModel others = solve(&equations);
             add(&equations, &sample, 1.0);
@@ -231,13 +198,13 @@ static void judge_fit(const DipCostReport *report, const DipCostModel *model, co
     double misses[DIP_COST_MAX_ROWS];
     double sum = 0.0, weight = 0.0, all = 0.0, left = 0.0;
     for (int r = 0; r < fit->rows; r++) {
-        const double ms = sample_of(report, DIP_COST_TIME, rows[r]).whole;
+        const double ms = sample_of(report, rows[r]).ms;
         sum += 1.0 / ms;
         weight += 1.0 / (ms * ms);
     }
     for (int r = 0; r < fit->rows; r++) {
-        const Sample sample = sample_of(report, DIP_COST_TIME, rows[r]);
-        const double off = sum / weight / sample.whole - 1.0;
+        const Sample sample = sample_of(report, rows[r]);
+        const double off = sum / weight / sample.ms - 1.0;
         misses[r] = miss_of(model, &sample);
         all += off * off;
         left += misses[r] * misses[r];
@@ -252,7 +219,7 @@ DipCostFit dip_cost_fit(const DipCostReport *report) {
     if (fit.rows == 0) {
         return fit;
     }
-    const DipCostModel model = dip_cost_model_fit(report, DIP_COST_TIME, rows, fit.rows);
+    const DipCostModel model = dip_cost_model_fit(report, rows, fit.rows);
     for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
         for (int t = 0; t < dip_cost_term_count(stage); t++) {
             fit.stages[fit.count] = dip_cost_stage_names[stage];
@@ -261,6 +228,6 @@ DipCostFit dip_cost_fit(const DipCostReport *report) {
         }
     }
     judge_fit(report, &model, rows, &fit);
-    fit.others = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, fit.rows);
+    fit.others = dip_cost_model_leave_one_out(report, rows, fit.rows);
     return fit;
 }

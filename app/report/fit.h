@@ -1,7 +1,7 @@
-// Models the mean time of a frame and the FLIP of a combination of settings. Both models are sums
-// of terms. A term is an amount times a price, and the prices are fitted to measured rows. (A row
-// is one combination of settings on a camera path, report.h.) The models explain how time follows
-// from work, and predict combinations that were not measured.
+// Models the mean time of a frame of a combination of settings as a sum of terms. A term is an
+// amount times a price, and the prices are fitted to measured rows. (A row is one combination of
+// settings on a camera path, report.h.) The model explains how time follows from work, and predicts
+// combinations that were not measured.
 #ifndef DIP_APP_REPORT_FIT_H
 #define DIP_APP_REPORT_FIT_H
 
@@ -9,71 +9,50 @@
 
 // --- terms ---------------------------------------------------------------------------------------
 
-// A part is a value that has its own terms. It is the time of a stage of a frame (the part's index
-// is the DipCostStage) or FLIP (DIP_COST_PART_FLIP).
-//
-// A term of a stage is one kind of work. Its amount comes from the exact counters of a frame and
-// from the settings. No counter tells which reads miss the processor's caches. Reads that miss them
-// more often than others therefore have terms of their own: reads that may use the largest mip
-// levels (miplod=high-quality, sharp and sharper), reads of uncompressed textures, and probes of
-// advanced AF.
-//
-// The terms of FLIP come from the settings alone, since the error of antialiasing and that of
-// filtering nearly add up. There are terms for antialiasing, for the clipping of alpha-clipped
-// surfaces, for anisotropic filtering and for the other settings, and products of two terms where
-// one error hides a part of the other. Each amount is 0 to 1.
-enum {
-    DIP_COST_PART_FLIP = DIP_COST_STAGE_COUNT,
-    DIP_COST_PART_COUNT,
-    DIP_COST_MAX_TERMS = 64 // Greatest number of terms of one part.
-};
+// Each stage of a frame (DipCostStage) has its own terms. A term is one kind of work. Its amount
+// comes from the exact counters of a frame and from the settings. No counter tells which reads miss
+// the processor's caches. Reads that miss them more often than others therefore have terms of their
+// own: reads that may use the largest mip levels (miplod=high-quality, sharp and sharper), reads of
+// uncompressed textures, and probes of advanced AF.
+enum { DIP_COST_MAX_TERMS = 64 }; // Greatest number of terms of one stage.
 
-int dip_cost_term_count(int part);
+int dip_cost_term_count(int stage);
 
 // Returns the name of a term: "texel fetched". Static storage.
-const char *dip_cost_term_name(int part, int term);
+const char *dip_cost_term_name(int stage, int term);
 
-// Computes the amounts of a part's terms. The amount of the first term is 1, except in the geometry
-// stage of frames that pose vertices, where it is 0 (terms.c says why). `counters` are those of a
-// frame that was drawn with these settings, or their means over several frames.
-void dip_cost_terms(int part, const double counters[DIP_COST_COUNTER_COUNT],
+// Computes the amounts of a stage's terms. The amount of the first term is 1, except in the
+// geometry stage of frames that pose vertices, where it is 0 (terms.c says why). `counters` are
+// those of a frame that was drawn with these settings, or their means over several frames.
+void dip_cost_terms(int stage, const double counters[DIP_COST_COUNTER_COUNT],
                     const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
 
-// Returns the sum of amounts times prices of all terms of the parts `first` to `end` - 1. `prices`
-// is indexed [part][term].
+// Returns the sum of amounts times prices of all terms of the stages `first` to `end` - 1.
+// `prices` is indexed [stage][term].
 double dip_cost_sum_terms(int first, int end, const double (*prices)[DIP_COST_MAX_TERMS],
                           const double counters[DIP_COST_COUNTER_COUNT], const DipQuality *quality);
 
 // --- models --------------------------------------------------------------------------------------
 
-typedef enum DipCostModelled {
-    DIP_COST_TIME, // In milliseconds: the sum of the terms of all stages.
-    DIP_COST_FLIP_ERROR
-} DipCostModelled;
-
 typedef struct DipCostModel {
-    DipCostModelled what;
-    double prices[DIP_COST_PART_COUNT][DIP_COST_MAX_TERMS]; // Prices of time are never negative.
+    double prices[DIP_COST_STAGE_COUNT][DIP_COST_MAX_TERMS]; // In milliseconds; never negative.
     int rows; // Number of rows that the prices come from; 0 if there are none.
 } DipCostModel;
 
-// Fits prices to the rows whose value is known. (A time is known if the times of the stages are.)
-// Minimises the sum of squared deviations, each relative to the row's time or FLIP, so that slow
-// rows have no more weight than fast ones. Prices of time are also fitted to the combinations at
-// half the size (report->smaller). Here and below, `rows` may be NULL, which means the rows 0 to
-// count - 1.
-DipCostModel dip_cost_model_fit(const DipCostReport *report, DipCostModelled what, const int *rows,
-                                int count);
+// Fits prices to the rows whose times of the stages are known. Minimises the sum of squared
+// deviations, each relative to the row's time, so that slow rows have no more weight than fast
+// ones. Prices are also fitted to the combinations at half the size (report->smaller). Here and
+// below, `rows` may be NULL, which means the rows 0 to count - 1.
+DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, int count);
 
-// Fits prices of time that are meant for another size, another camera path or another number of
-// threads than the report's. `there` holds a few combinations that were timed under these other
-// conditions. Together they count 30 times as much as all rows of the report and its
-// combinations at half the size, which decide only what `there` leaves open.
+// Fits prices that are meant for another size, another camera path or another number of threads
+// than the report's. `there` holds a few combinations that were timed under these other conditions.
+// Together they count 30 times as much as all rows of the report and its combinations at half the
+// size, which decide only what `there` leaves open.
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count);
 
-// Returns the mean time of a frame with these counters and settings, in milliseconds, or its FLIP.
-// FLIP is never negative and does not depend on the counters.
+// Returns the mean time of a frame with these counters and settings, in milliseconds.
 double dip_cost_model_value(const DipCostModel *model,
                             const double counters[DIP_COST_COUNTER_COUNT],
                             const DipQuality *quality);
@@ -81,9 +60,8 @@ double dip_cost_model_value(const DipCostModel *model,
 // Summarises misses; a miss is |predicted / measured - 1|. Sorts the array `misses`.
 DipCostMisses dip_cost_misses_of(double *misses, int count);
 
-// Predicts each of the rows from all others (leave one out), and summarises the misses.
-DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, DipCostModelled what,
-                                           const int *rows, int count);
+// Predicts the time of each of the rows from all others (leave one out), and summarises the misses.
+DipCostMisses dip_cost_model_leave_one_out(const DipCostReport *report, const int *rows, int count);
 
 // --- the fit of a whole report -------------------------------------------------------------------
 

@@ -107,7 +107,7 @@ static void add_timed(DipCostElsewherePrediction *p, int index) {
 static bool choose_timed(DipCostElsewherePrediction *p, int timed, int checked, DipError *err) {
     int chosen[DIP_COST_MAX_ROWS];
     const int most = timed < p->count ? timed : p->count;
-    if (most > 0 && !dip_cost_choose_training(&p->there, most, chosen, err)) {
+    if (most > 0 && !dip_cost_choose_timed(&p->there, most, chosen, err)) {
         return false;
     }
     for (int i = 0; i < most; i++) {
@@ -275,7 +275,7 @@ bool dip_cost_predict_there(DipCostElsewherePrediction *p, const DipSession *ses
                            arguments->session.has_isa ? session->isa : isa, err) &&
                 measure(p, &here, &there, arguments, err);
     if (done) {
-        p->fit = dip_cost_model_leave_one_out(&p->report, DIP_COST_TIME, NULL, p->report.row_count);
+        p->fit = dip_cost_model_leave_one_out(&p->report, NULL, p->report.row_count);
         dip_cost_predict_and_judge_there(p);
     }
     dip_pool_destroy(&here.pool);

@@ -37,14 +37,13 @@ void dip_normal_equations_add(DipNormalEquations *equations, const double *amoun
 
 // Solves the equations for the terms that are used, by Cholesky decomposition. All other terms get
 // 0, as do terms that depend on terms before them.
-static void solve(const DipNormalEquations *equations, const bool *used, double ridge,
-                  double *solution) {
+static void solve(const DipNormalEquations *equations, const bool *used, double *solution) {
     double lower[MAX][MAX];
     int index[MAX];
     int count = 0;
     for (int term = 0; term < equations->terms; term++) {
         double *row = lower[count];
-        const double whole = equations->left[term][term] + ridge;
+        const double whole = equations->left[term][term];
         double rest = whole;
         for (int k = 0; used[term] && k < count; k++) {
             double sum = equations->left[term][index[k]];
@@ -81,13 +80,6 @@ static void unscale(const DipNormalEquations *equations, double *solution) {
     for (int i = 0; i < equations->terms; i++) {
         solution[i] = scaled(solution[i], equations->scale[i]);
     }
-}
-
-void dip_least_squares_ridge(const DipNormalEquations *equations, double ridge, double *solution) {
-    bool used[MAX];
-    memset(used, true, sizeof used);
-    solve(equations, used, ridge, solution);
-    unscale(equations, solution);
 }
 
 // Returns the unused term whose price reduces the error most steeply as it rises from 0. Returns -1
@@ -143,7 +135,7 @@ void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *
             break;
         }
         used[next] = true;
-        solve(equations, used, 0.0, solution);
+        solve(equations, used, solution);
         if (solution[next] <= 0.0) {
             used[next] = false;
             failed[next] = true;
@@ -151,7 +143,7 @@ void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *
         }
         memset(failed, 0, sizeof failed);
         while (!move(terms, used, solution, prices)) {
-            solve(equations, used, 0.0, solution);
+            solve(equations, used, solution);
         }
     }
     unscale(equations, prices);

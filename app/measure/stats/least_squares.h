@@ -42,12 +42,6 @@ DIP_API void dip_normal_equations_add(DipNormalEquations *equations, const doubl
 // Bro and de Jong 1997).
 DIP_API void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *prices);
 
-// Finds the prices of either sign with the least sum of squared errors. Adds `ridge` to the
-// diagonal of the scaled equations (ridge regression, Hoerl and Kennard 1970). `ridge` must be
-// positive if there are fewer rows than terms.
-DIP_API void dip_least_squares_ridge(const DipNormalEquations *equations, double ridge,
-                                     double *solution);
-
 // Chooses `count` of `rows` rows so that measuring them tells most about all prices. Adds one row
 // after another, each time the row whose amounts the rows chosen so far explain least (a greedy
 // D-optimal design, Fedorov 1972). The matrix has rows x terms amounts. On entry, `chosen` holds

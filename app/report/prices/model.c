@@ -6,8 +6,10 @@
 #include <math.h>
 
 enum {
-    MOST_MISSES = 32, // Greatest number of rows that are predicted from composed work as a test.
-    LEAST_JUDGED = 16 // Least number of rows with a known error from which errors are modelled.
+    MOST_MISSES = 32,  // Greatest number of rows that are predicted from composed work as a test.
+    LEAST_JUDGED = 16, // Least number of rows with a known error from which errors are predicted.
+    MOST_JUDGED = 256  // Greatest number of these rows. Of more, some are left out, spread evenly,
+                       // so that making the model takes milliseconds.
 };
 
 // The 90th percentile of the absolute value of a standard normal variable.
@@ -63,7 +65,7 @@ static double miss_of(const DipPriceView *view, const int *rows, int count, int 
             others[other_count++] = rows[i];
         }
     }
-    const DipCostModel times = dip_cost_model_fit(view->report, DIP_COST_TIME, others, other_count);
+    const DipCostModel times = dip_cost_model_fit(view->report, others, other_count);
     return fabs(dip_cost_model_value(&times, counters, &normal) / left_out->time.mean_ms.value -
                 1.0);
 }
@@ -82,7 +84,22 @@ static DipCostMisses find_misses(const DipPriceView *view, const int *rows, int 
         }
     }
     return known > 0 ? dip_cost_misses_of(misses, known)
-                     : dip_cost_model_leave_one_out(view->report, DIP_COST_TIME, rows, count);
+                     : dip_cost_model_leave_one_out(view->report, rows, count);
+}
+
+// Lists the rows from which errors are predicted. Returns their number.
+static int list_judged(const DipCostReport *report, int rows[DIP_COST_MAX_ROWS]) {
+    int count = 0;
+    for (int r = 0; r < report->row_count; r++) {
+        if (report->rows[r].path == 0 && dip_cost_is_judged(report, r)) {
+            rows[count++] = r;
+        }
+    }
+    const int used = count < MOST_JUDGED ? count : MOST_JUDGED;
+    for (int i = 0; i < used; i++) {
+        rows[i] = rows[i * count / used];
+    }
+    return used;
 }
 
 static void make(const DipPriceView *view) {
@@ -95,15 +112,10 @@ static void make(const DipPriceView *view) {
         return;
     }
     model->misses = find_misses(view, rows, count);
-    model->times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
-    count = 0;
-    for (int r = 0; r < report->row_count; r++) {
-        if (report->rows[r].path == 0 && dip_cost_is_judged(report, r)) {
-            rows[count++] = r;
-        }
-    }
-    if (count >= LEAST_JUDGED) {
-        model->errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
+    model->times = dip_cost_model_fit(report, rows, count);
+    count = list_judged(report, rows);
+    if (count >= LEAST_JUDGED && !dip_flip_model_fit(report, rows, count, 0, &model->errors)) {
+        dip_flip_model_free(&model->errors);
     }
 }
 
@@ -120,10 +132,12 @@ bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPr
     *whole = (DipPriceWhole){
         .state = DIP_PRICE_PREDICTED,
         .time = dip_price_predicted_time(ms, &model->misses),
-        .has_flip = model->errors.rows > 0,
+        .has_flip = model->errors.count > 0,
     };
     if (whole->has_flip) {
-        whole->flip = dip_cost_model_value(&model->errors, counters, normal);
+        int distances[MOST_JUDGED];
+        dip_flip_model_distances(&model->errors, normal, distances);
+        whole->flip = dip_flip_model_value(&model->errors, distances);
     }
     return true;
 }

@@ -4,11 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Empties what is kept. `kept` may be NULL.
+static void forget(DipPriceKept *kept) {
+    if (kept) {
+        dip_flip_model_free(&kept->errors);
+        memset(kept, 0, sizeof *kept);
+    }
+}
+
 DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err) {
     DipPriceView *view = calloc(1, sizeof *view);
     if (view) {
         view->report = report;
-        view->kept = malloc(sizeof *view->kept);
+        view->kept = calloc(1, sizeof *view->kept);
     }
     if (!view || !view->kept || !dip_price_view_update(view, NULL)) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
@@ -20,6 +28,7 @@ DipPriceView *dip_price_view_create(const DipCostReport *report, DipError *err) 
 void dip_price_view_destroy(DipPriceView **view) {
     if (*view) {
         free((*view)->entries);
+        forget((*view)->kept);
         free((*view)->kept);
         free(*view);
         *view = NULL;
@@ -57,7 +66,7 @@ bool dip_price_view_update(DipPriceView *view, DipError *err) {
     const int most = report->row_count + report->same_count + predicted->count;
     view->base = dip_price_normal(&report->options.baseline, &report->options.baseline);
     view->count = 0;
-    memset(view->kept, 0, sizeof *view->kept);
+    forget(view->kept);
     free(view->entries);
     view->entries = malloc((size_t)(most + 1) * sizeof *view->entries);
     if (!view->entries) {

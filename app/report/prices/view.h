@@ -4,6 +4,7 @@
 #define DIP_APP_REPORT_PRICES_VIEW_H
 
 #include "app/report/fit.h"
+#include "app/report/flip_model.h"
 #include "app/report/prices/prices.h"
 
 // A combination on a path, with its row in the report or with one of the report's predictions.
@@ -32,7 +33,7 @@ typedef struct DipPriceKept {
     bool has_models;
     DipCostModel times;   // times.rows is 0 if the report has too few times.
     DipCostMisses misses; // How far `times` misses measured times.
-    DipCostModel errors;  // errors.rows is 0 if the report has too few errors.
+    DipFlipModel errors;  // errors.count is 0 if the report has too few errors. Owned.
     DipPriceMemory memories[DIP_PRICE_MEMORIES];
 } DipPriceKept;
 

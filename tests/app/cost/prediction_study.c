@@ -80,17 +80,28 @@ typedef struct Trained {
     int count;
 } Trained;
 
-// Returns how far a model misses rows to which it was not fitted.
-static DipCostMisses misses_of(const DipCostReport *report, const DipCostModel *model,
-                               const int *rows, int count) {
+// Returns how far the model of times misses rows to which it was not fitted.
+static DipCostMisses time_misses_of(const DipCostReport *report, const DipCostModel *model,
+                                    const int *rows, int count) {
     double misses[DIP_COST_MAX_ROWS];
     for (int i = 0; i < count; i++) {
         const DipCostRow *row = &report->rows[rows[i]];
-        const double measured = model->what == DIP_COST_TIME
-                                    ? dip_cost_ms(report, rows[i])
-                                    : dip_cost_row_metrics(report, rows[i], 0).flip;
-        misses[i] =
-            fabs(dip_cost_model_value(model, row->counters, &row->quality) / measured - 1.0);
+        const double ms = dip_cost_model_value(model, row->counters, &row->quality);
+        misses[i] = fabs(ms / dip_cost_ms(report, rows[i]) - 1.0);
+    }
+    return dip_cost_misses_of(misses, count);
+}
+
+// Returns how far the model of FLIP misses such rows.
+static DipCostMisses flip_misses_of(const DipCostReport *report, const DipFlipModel *model,
+                                    const int *rows, int count) {
+    double misses[DIP_COST_MAX_ROWS];
+    int distances[DIP_COST_MAX_ROWS];
+    for (int i = 0; i < count; i++) {
+        dip_flip_model_distances(model, &report->rows[rows[i]].quality, distances);
+        misses[i] = fabs(dip_flip_model_value(model, distances) /
+                             dip_cost_row_metrics(report, rows[i], 0).flip -
+                         1.0);
     }
     return dip_cost_misses_of(misses, count);
 }
@@ -105,11 +116,16 @@ static bool study_own(Trained *trained, DipError *err) {
         return false;
     }
     const int other_count = list_others(report, rows, count, others);
-    const DipCostModel times = dip_cost_model_fit(report, DIP_COST_TIME, rows, count);
-    const DipCostModel errors = dip_cost_model_fit(report, DIP_COST_FLIP_ERROR, rows, count);
-    const DipCostMisses time_misses = misses_of(report, &times, others, other_count);
-    const DipCostMisses flip_misses = misses_of(report, &errors, others, other_count);
-    const DipCostMisses left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
+    const DipCostModel times = dip_cost_model_fit(report, rows, count);
+    DipFlipModel errors;
+    if (!dip_flip_model_fit(report, rows, count, 0, &errors)) {
+        dip_flip_model_free(&errors);
+        return dip_cost_out_of_memory(err);
+    }
+    const DipCostMisses time_misses = time_misses_of(report, &times, others, other_count);
+    const DipCostMisses flip_misses = flip_misses_of(report, &errors, others, other_count);
+    dip_flip_model_free(&errors);
+    const DipCostMisses left_out = dip_cost_model_leave_one_out(report, rows, count);
     printf("trained on %d of %d combinations:\n", count, report->predicted.count);
     print_misses("times of the others", &time_misses);
     print_misses("times, each trained row from the other trained rows", &left_out);
@@ -179,7 +195,7 @@ static bool choose_there(const Trained *trained, There *there, DipError *err) {
         *p = (DipCostPrediction){.quality = there->rows[i].quality, .row = -1};
         memcpy(p->counters, there->rows[i].counters, sizeof p->counters);
     }
-    const bool done = dip_cost_choose_training(&place, TIMED_THERE, chosen, err);
+    const bool done = dip_cost_choose_timed(&place, TIMED_THERE, chosen, err);
     free(place.predicted.list);
     for (int i = 0; done && i < TIMED_THERE; i++) {
         const DipCostElsewhere moved = there->rows[chosen[i]];
@@ -197,8 +213,7 @@ static bool study_there(const Trained *trained, const char *file, DipError *err)
     if (!read_there(file, &there, err) || !choose_there(trained, &there, err)) {
         return false;
     }
-    const DipCostModel alone =
-        dip_cost_model_fit(trained->report, DIP_COST_TIME, trained->rows, trained->count);
+    const DipCostModel alone = dip_cost_model_fit(trained->report, trained->rows, trained->count);
     const DipCostModel fitted = dip_cost_model_fit_there(trained->report, trained->rows,
                                                          trained->count, there.rows, TIMED_THERE);
     const DipCostMisses all = misses_there(&there, &alone, 0);

@@ -70,21 +70,21 @@ static void make_work(const DipQuality *quality, double *counters) {
     counters[DIP_COST_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
 }
 
-// A number of the machine's between two bounds for a part's term. It depends on the term's name and
-// not on its place, so that new terms leave the machines as they were.
-static double draw_for(uint64_t seed, int part, int term, double least, double most) {
-    Random random = {seed + 1000 * (uint64_t)part};
-    for (const char *c = dip_cost_term_name(part, term); *c; c++) {
+// A number of the machine's between two bounds for a stage's term. It depends on the term's name
+// and not on its place, so that new terms leave the machines as they were.
+static double draw_for(uint64_t seed, int stage, int term, double least, double most) {
+    Random random = {seed + 1000 * (uint64_t)stage};
+    for (const char *c = dip_cost_term_name(stage, term); *c; c++) {
         random = (Random){random_u64(&random) ^ (uint64_t)(unsigned char)*c};
     }
     return random_real(&random, least, most);
 }
 
 static DipCostModel make_model(uint64_t seed) {
-    DipCostModel times = {.what = DIP_COST_TIME, .rows = 1};
-    for (int part = 0; part < DIP_COST_PART_FLIP; part++) {
-        for (int t = 0; t < dip_cost_term_count(part); t++) {
-            times.prices[part][t] = draw_for(seed, part, t, 0.0, 2e-6);
+    DipCostModel times = {.rows = 1};
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        for (int t = 0; t < dip_cost_term_count(stage); t++) {
+            times.prices[stage][t] = draw_for(seed, stage, t, 0.0, 2e-6);
         }
     }
     return times;
@@ -259,7 +259,7 @@ static void measure_training(Machine *machine) {
     assert_true(dip_cost_add_rows(report, chosen, count, rows, NULL));
     assert_true(measure(machine, rows, count, NULL));
     predicted->trained = count;
-    predicted->times_left_out = dip_cost_model_leave_one_out(report, DIP_COST_TIME, rows, count);
+    predicted->times_left_out = dip_cost_model_leave_one_out(report, rows, count);
     machine->measured = 0;
 }
 

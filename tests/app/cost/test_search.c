@@ -71,11 +71,11 @@ static void make_work(const DipQuality *quality, double *counters) {
 
 // Measures some of the listed combinations: those of one group, and every tenth other one.
 static void measure_some(DipCostReport *report, uint64_t seed) {
-    DipCostModel times = {.what = DIP_COST_TIME, .rows = 1};
+    DipCostModel times = {.rows = 1};
     Random random = {seed};
-    for (int part = 0; part < DIP_COST_PART_FLIP; part++) {
-        for (int t = 0; t < dip_cost_term_count(part); t++) {
-            times.prices[part][t] = random_real(&random, 0.0, 2e-6);
+    for (int stage = 0; stage < DIP_COST_STAGE_COUNT; stage++) {
+        for (int t = 0; t < dip_cost_term_count(stage); t++) {
+            times.prices[stage][t] = random_real(&random, 0.0, 2e-6);
         }
     }
     for (int i = 0; i < report->predicted.count; i++) {
@@ -173,7 +173,7 @@ static void the_search_finds_the_best_of_all(void **state) {
             }
             assert_true(dip_work_compose(find_listed, &report, &report.options.baseline, &list[i],
                                          counters));
-            dip_cost_find_distances(&models, measured, &list[i], distances);
+            dip_flip_model_distances(&models.flip, &list[i], distances);
             dip_cost_predict_one(&models, counters, &list[i], distances, values);
             bool is_matched = false;
             for (int k = 0; k < report.predicted.count && !is_matched; k++) {
@@ -182,8 +182,7 @@ static void the_search_finds_the_best_of_all(void **state) {
                              p->flip <= 1.011 * values[DIP_COST_PREDICTED_FLIP] + 1e-12;
             }
             assert_true(is_matched);
-            const double error =
-                sqrt(models.flip_variance * dip_cost_process_variance(&models.of_flip, distances));
+            const double error = dip_flip_model_error(&models.flip, distances);
             for (int b = 0; b < 2; b++) {
                 const DipCostAim aim = dip_cost_aim(&report, b);
                 best[b] = fmax(best[b], dip_cost_gain(&aim, values[DIP_COST_PREDICTED_P95],
@@ -193,9 +192,8 @@ static void the_search_finds_the_best_of_all(void **state) {
         for (int k = 0; k < report.predicted.count; k++) { // it may have been listed before
             const DipCostPrediction *p = &report.predicted.list[k];
             int distances[DIP_COST_MAX_ROWS];
-            dip_cost_find_distances(&models, measured, &p->quality, distances);
-            const double error =
-                sqrt(models.flip_variance * dip_cost_process_variance(&models.of_flip, distances));
+            dip_flip_model_distances(&models.flip, &p->quality, distances);
+            const double error = dip_flip_model_error(&models.flip, distances);
             for (int b = 0; b < 2 && p->row < 0; b++) {
                 const DipCostAim aim = dip_cost_aim(&report, b);
                 found[b] = fmax(found[b], dip_cost_gain(&aim, p->p95_ms, p->flip, error));
@@ -469,102 +467,10 @@ static void no_time_is_rounded_across_the_budget(void **state) {
     assert_non_null(strstr(answer + 1, "16.666"));
 }
 
-// --- the process ---------------------------------------------------------------------------------
-
-enum { KNOWN = 12 };
-
-// Solves a x = b for the first `count` rows and columns, by elimination with pivots.
-static void eliminate(double a[KNOWN][KNOWN], const double b[KNOWN], int count, double x[KNOWN]) {
-    double left[KNOWN][KNOWN + 1];
-    for (int i = 0; i < count; i++) {
-        memcpy(left[i], a[i], sizeof a[i]);
-        left[i][KNOWN] = b[i];
-    }
-    for (int c = 0; c < count; c++) {
-        int pivot = c;
-        for (int i = c; i < count; i++) {
-            pivot = fabs(left[i][c]) > fabs(left[pivot][c]) ? i : pivot;
-        }
-        for (int k = 0; k <= KNOWN; k++) {
-            const double swap = left[c][k];
-            left[c][k] = left[pivot][k];
-            left[pivot][k] = swap;
-        }
-        for (int i = 0; i < count; i++) {
-            const double factor = i == c ? 0.0 : left[i][c] / left[c][c];
-            for (int k = c; factor != 0.0 && k <= KNOWN; k++) { // NOLINT: 0 stands for itself.
-                left[i][k] -= factor * left[c][k];
-            }
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        x[i] = left[i][KNOWN] / left[i][i];
-    }
-}
-
-// Means, variances and what is missed when one value is left out are those of the formulas of
-// Rasmussen and Williams 2006 (2.25, 2.26), with the whole matrix of covariances.
-static void the_process_equals_plain_elimination(void **state) {
-    (void)state;
-    const double common = 1.0, alike = 0.9, own = 0.01;
-    DipCostProcess process;
-    Random random = {5};
-    int distances[KNOWN + 1][KNOWN + 1];
-    double covariance[KNOWN][KNOWN], values[KNOWN], to_new[KNOWN], shares[KNOWN], misses[KNOWN];
-    DipQuality list[KNOWN + 1];
-    for (int i = 0; i <= KNOWN; i++) {
-        list[i] = dip_quality_default();
-        list[i].step[DIP_SETTING_AA] = (uint8_t)(i % 5);
-        list[i].step[DIP_SETTING_AF] = (uint8_t)(i / 5);
-        list[i].step[DIP_SETTING_SHARPEN] = (uint8_t)(i % 3);
-        for (int k = 0; k <= i; k++) {
-            distances[i][k] = distances[k][i] = dip_cost_distance(&list[i], &list[k], ~0u);
-        }
-    }
-    assert_true(dip_cost_process_begin(&process, common, alike, own, KNOWN));
-    for (int i = 0; i < KNOWN; i++) {
-        values[i] = random_real(&random, -1.0, 1.0);
-        for (int k = 0; k < KNOWN; k++) {
-            covariance[i][k] = common + pow(alike, distances[i][k] / 8.0) + (i == k ? own : 0.0);
-        }
-        to_new[i] = common + pow(alike, distances[i][KNOWN] / 8.0);
-        dip_cost_process_add(&process, distances[i]);
-    }
-    double solved[KNOWN], variance = common + 1.0;
-    dip_cost_process_solve(&process, values, shares);
-    eliminate(covariance, values, KNOWN, solved);
-    for (int i = 0; i < KNOWN; i++) {
-        assert_true(fabs(shares[i] - solved[i]) < 1e-7 * (1.0 + fabs(solved[i])));
-    }
-    eliminate(covariance, to_new, KNOWN, solved);
-    for (int i = 0; i < KNOWN; i++) {
-        variance -= to_new[i] * solved[i];
-    }
-    assert_true(fabs(dip_cost_process_variance(&process, distances[KNOWN]) - variance) < 1e-9);
-    dip_cost_process_left_out(&process, shares, misses);
-    for (int out = 0; out < KNOWN; out++) {
-        double others[KNOWN][KNOWN] = {{0.0}}, their_values[KNOWN], miss = values[out];
-        for (int i = 0; i < KNOWN - 1; i++) {
-            const int from = i + (i >= out);
-            their_values[i] = values[from];
-            for (int k = 0; k < KNOWN - 1; k++) {
-                others[i][k] = covariance[from][k + (k >= out)];
-            }
-        }
-        eliminate(others, their_values, KNOWN - 1, solved);
-        for (int i = 0; i < KNOWN - 1; i++) {
-            miss -= covariance[out][i + (i >= out)] * solved[i];
-        }
-        assert_true(fabs(misses[out] - miss) < 1e-7 * (1.0 + fabs(miss)));
-    }
-    dip_cost_process_free(&process);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(combinations_are_counted_without_a_list),
         cmocka_unit_test(the_search_finds_the_best_of_all),
-        cmocka_unit_test(the_process_equals_plain_elimination),
         cmocka_unit_test(combinations_that_fit_a_list_are_all_listed),
         cmocka_unit_test(settings_that_change_no_picture_are_dropped),
         cmocka_unit_test(a_busy_machine_is_told_once),

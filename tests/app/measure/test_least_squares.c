@@ -135,22 +135,6 @@ static void terms_that_cannot_be_told_apart_share_a_price(void **state) {
     assert_true(prices[2] == 0.0);
 }
 
-// One term: the closed form sum(a y) / (sum(a a) + ridge scale^2).
-static void a_ridge_has_its_closed_form(void **state) {
-    (void)state;
-    const double amounts[3] = {1, 2, 4};
-    const double values[3] = {3, 1, -7};
-    const double scale[1] = {4};
-    DipNormalEquations equations;
-    double solution[1];
-    dip_normal_equations_begin(&equations, 1, scale);
-    for (int r = 0; r < 3; r++) {
-        dip_normal_equations_add(&equations, &amounts[r], values[r], 1.0);
-    }
-    dip_least_squares_ridge(&equations, 0.5, solution);
-    assert_true(fabs(solution[0] - (3.0 + 2.0 - 28.0) / (21.0 + 0.5 * 16.0)) < 1e-12);
-}
-
 // Determinant of the information matrix of some rows, by elimination in a wider type.
 static long double information(const Problem *problem, const int *chosen, int count, int terms) {
     long double m[TERMS][TERMS] = {{0}};
@@ -206,7 +190,6 @@ int main(void) {
         cmocka_unit_test(random_problems_end_at_the_least_sum),
         cmocka_unit_test(a_row_taken_away_leaves_the_equations_of_the_others),
         cmocka_unit_test(terms_that_cannot_be_told_apart_share_a_price),
-        cmocka_unit_test(a_ridge_has_its_closed_form),
         cmocka_unit_test(a_design_tells_more_than_random_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 // Computes means and variances of a Gaussian process by the Cholesky factor of its covariance.
-#include "app/cost/process.h"
+#include "app/report/process.h"
 
 #include "app/report/report.h"
 #include "renderer/base/assert.h"
@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-_Static_assert(DIP_SETTING_COUNT *DIP_MAX_STEPS *DIP_PROCESS_STEP <= DIP_PROCESS_MOST_DISTANCE,
+_Static_assert(DIP_SETTING_COUNT *DIP_MAX_STEPS *DIP_PROCESS_STEP *DIP_PROCESS_MOST_WEIGHT <=
+                   DIP_PROCESS_MOST_DISTANCE,
                "room for distances");
 
 // Where a step lies: in the order of 1 / samples or 1 / probes, over the same length as if all
@@ -20,10 +21,12 @@ static int place_of(const DipQuality *quality, int setting) {
                                        : step * DIP_PROCESS_STEP;
 }
 
-int dip_cost_distance(const DipQuality *a, const DipQuality *b, unsigned settings) {
+int dip_cost_distance(const DipQuality *a, const DipQuality *b, unsigned settings,
+                      const double weights[DIP_SETTING_COUNT]) {
     int distance = 0;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
-        distance += settings >> s & 1 ? abs(place_of(a, s) - place_of(b, s)) : 0;
+        const int apart = settings >> s & 1 ? abs(place_of(a, s) - place_of(b, s)) : 0;
+        distance += weights ? (int)(weights[s] * apart + 0.5) : apart;
     }
     return distance;
 }
@@ -88,6 +91,16 @@ void dip_cost_process_solve(const DipCostProcess *process, const double *values,
         }
         shares[i] /= row_of(process, i)[i];
     }
+}
+
+double dip_cost_process_likelihood(const DipCostProcess *process, const double *values,
+                                   const double *shares) {
+    double squares = 0.0, logs = 0.0;
+    for (int i = 0; i < process->count; i++) {
+        squares += values[i] * shares[i];
+        logs += log(row_of(process, i)[i]);
+    }
+    return -0.5 * process->count * log(squares / process->count) - logs;
 }
 
 double dip_cost_process_variance(const DipCostProcess *process, const int *distances) {

@@ -2,12 +2,16 @@
 // known at some combinations has a mean and a variance at every other one. The covariance of two
 // combinations is `common` + alike^d, where d is their distance in steps of settings. What is known
 // also has a variance of its own, `own`.
-#ifndef DIP_APP_COST_PROCESS_H
-#define DIP_APP_COST_PROCESS_H
+#ifndef DIP_APP_REPORT_PROCESS_H
+#define DIP_APP_REPORT_PROCESS_H
 
 #include "renderer/scene/quality.h"
 
-enum { DIP_PROCESS_STEP = 8, DIP_PROCESS_MOST_DISTANCE = 15 * DIP_MAX_STEPS * DIP_PROCESS_STEP };
+enum {
+    DIP_PROCESS_STEP = 8,
+    DIP_PROCESS_MOST_WEIGHT = 4,
+    DIP_PROCESS_MOST_DISTANCE = 15 * DIP_MAX_STEPS * DIP_PROCESS_STEP * DIP_PROCESS_MOST_WEIGHT
+};
 
 typedef struct DipCostProcess {
     double covariance[DIP_PROCESS_MOST_DISTANCE]; // [distance]
@@ -19,10 +23,12 @@ typedef struct DipCostProcess {
 } DipCostProcess;
 
 // Returns how far two combinations are apart in the settings of a mask (bit s for setting s),
-// summed over the settings. Steps are DIP_PROCESS_STEP apart. Of samples and probes, each doubling
-// has about half the effect of the one before, so their steps are that much closer to each other.
-// If masks share no setting, the distances add up.
-int dip_cost_distance(const DipQuality *a, const DipQuality *b, unsigned settings);
+// summed over the settings. Steps of setting s are weights[s] * DIP_PROCESS_STEP apart, where a
+// weight is 0 to DIP_PROCESS_MOST_WEIGHT. If `weights` is NULL, all are 1. Of samples and probes,
+// each doubling has about half the effect of the one before, so their steps are that much closer to
+// each other. If masks share no setting, the distances add up.
+int dip_cost_distance(const DipQuality *a, const DipQuality *b, unsigned settings,
+                      const double weights[DIP_SETTING_COUNT]);
 
 // Begins a process without known combinations. Returns false if there is no memory. Free it anyway.
 bool dip_cost_process_begin(DipCostProcess *process, double common, double alike, double own,
@@ -35,6 +41,12 @@ void dip_cost_process_add(DipCostProcess *process, const int *distances);
 // Computes the share of each known combination from its value. The mean at a combination is the sum
 // of all shares, each times covariance[distance].
 void dip_cost_process_solve(const DipCostProcess *process, const double *values, double *shares);
+
+// Returns the logarithm of the likelihood of the values (Rasmussen and Williams 2006, eq. 5.8)
+// without its constant. The variance of the values, divided by that of the process, is the one with
+// the greatest likelihood. `shares` are those of these values.
+double dip_cost_process_likelihood(const DipCostProcess *process, const double *values,
+                                   const double *shares);
 
 // Computes by how much the value of each known combination lies above what all others predict.
 void dip_cost_process_left_out(const DipCostProcess *process, const double *shares, double *misses);
