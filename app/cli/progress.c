@@ -17,7 +17,8 @@ static const int64_t other_period_ns = INT64_C(10000000000);
 static double next_s, later_s;
 // The time left is a weighted mean of two estimates: one from the expected time, and one from the
 // time that the work has taken so far. Both weigh the same when this share of the work is done.
-// Later, the second estimate weighs more.
+// Later, the second estimate weighs more. If the expected time is not known, the time left follows
+// from the second estimate alone.
 static const double early = 0.05;
 
 void dip_progress_expect(double own_s, double all_later_s) {

@@ -41,9 +41,10 @@ struct DipControl {
     unsigned subscriptions;
 };
 
-// Diptych sends no_memory instead of any other line if memory runs out or the output buffer has no
-// room for that line. It sends too_many to a client that connects when DIP_CONTROL_MAX_CLIENTS are
-// connected already, or when there is no memory for another client.
+// Diptych sends no_memory instead of a line if there is no memory to write this line or no room for
+// it in the output buffer. (An event whose fields could not be made is dropped.) It sends too_many
+// to a client that connects when DIP_CONTROL_MAX_CLIENTS are connected already, or when there is no
+// memory for another client.
 static const char no_memory[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"MEMORY\","
                                 "\"field\":\"\",\"message\":\"out of memory\"}}";
 static const char too_many[] = "{\"id\":null,\"ok\":false,\"error\":{\"code\":\"BUSY\","
@@ -87,7 +88,7 @@ typedef enum Line {
               // not arrived yet.
 } Line;
 
-// Finds the first line. Its text is not terminated, and is valid until remove_line is called.
+// Finds the first line. Its text is not terminated, and is valid until the next call of read_input.
 static Line find_line(Client *client, const char **line, size_t *length) {
     if (client->skips && !skip(client)) {
         return NO_LINE;

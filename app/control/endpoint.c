@@ -51,7 +51,7 @@ ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size) {
 
 bool dip_wire_is_cut(const DipWire *wire) {
     return wire->socket ? (ready(wire->in, 0) & (POLLHUP | POLLERR)) != 0
-                        : (ready(wire->out, 0) & POLLERR) != 0;
+                        : (ready(wire->out, 0) & (POLLHUP | POLLERR)) != 0;
 }
 
 void dip_wire_close(DipWire *wire) {
@@ -81,7 +81,7 @@ static int open_output(void) {
 }
 
 bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *err) {
-    struct stat status;
+    struct stat status, input;
     *endpoint = (DipEndpoint){.listener = -1, .stdout_copy = -1};
     *wire = (DipWire){.in = STDIN_FILENO, .out = open_output()};
     if (wire->out >= 0) {
@@ -96,8 +96,9 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
         return false;
     }
     wire->sends = fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode);
-    if (wire->sends && fstat(STDIN_FILENO, &status) == 0 && S_ISSOCK(status.st_mode)) {
-        // Takes standard input and output for one socket, which the parent process has made with
+    if (wire->sends && fstat(STDIN_FILENO, &input) == 0 && input.st_dev == status.st_dev &&
+        input.st_ino == status.st_ino) {
+        // Standard input and output are one socket, which the parent process has made with
         // socketpair. Both reading and writing use the duplicate of this socket that open_output
         // made.
         wire->in = wire->out;

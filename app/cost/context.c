@@ -149,7 +149,7 @@ static bool read_drawn(void *context, const DipCostPictureSet *set, int row, uin
     DipCostContext *cost = context;
     DipTruth truth;
     char hash[33];
-    if (dip_cost_interrupted(err)) {
+    if (dip_cost_interrupted(cost, err)) {
         return false;
     }
     if (row >= 0) {
@@ -255,12 +255,16 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
     const bool got = dip_truth_get(truth, &def, cache, cost->session->pool,
                                    progress ? progress : go_on, context, err);
     if (!got) {
-        dip_cost_interrupted(err); // After Ctrl-C, the error says how to continue.
+        dip_cost_interrupted(cost, err); // After Ctrl-C, the error says how to continue.
     }
     return got;
 }
 
-bool dip_cost_interrupted(DipError *err) {
-    return dip_interrupted() &&
-           !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost", DIP_COST_INTERRUPTED);
+const char *dip_cost_interrupted_text(const DipCostContext *cost) {
+    return cost->journal ? "interrupted; run the same command again to continue" : "interrupted";
+}
+
+bool dip_cost_interrupted(const DipCostContext *cost, DipError *err) {
+    return dip_interrupted() && !dip_error_set(err, DIP_ERROR_RUNTIME, NULL, 0, "cost", "%s",
+                                               dip_cost_interrupted_text(cost));
 }

@@ -91,12 +91,13 @@ bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err
 bool dip_cost_write_report(const DipCostReport *report, const DipCostFrameSource *source,
                            const char *folder, DipError *err);
 
-// Error message after the user has interrupted a command with Ctrl-C.
-#define DIP_COST_INTERRUPTED "interrupted; run the same command again to continue"
+// Returns the error message after the user has interrupted a command with Ctrl-C. If the context
+// has a journal, the message says that the same command continues. Static storage.
+const char *dip_cost_interrupted_text(const DipCostContext *cost);
 
 // Returns true and fills *err if the user has pressed Ctrl-C. The journal, if there is one, keeps
 // the measurements that it has so far (journal.h).
-bool dip_cost_interrupted(DipError *err);
+bool dip_cost_interrupted(const DipCostContext *cost, DipError *err);
 
 // Copies the time of each pipeline stage of a frame to the parts of a DipTimed (rounds.h).
 static inline void dip_cost_stage_parts(const DipFrame *frame, double parts_ms[DIP_TIMED_PARTS]) {

@@ -242,7 +242,7 @@ static bool judge_rows(Judge *j, DipError *err) {
             judged = judge_bursts(j, err);
         }
         dip_progress_show(&j->progress, ++j->done);
-        judged = judged && !dip_cost_interrupted(err);
+        judged = judged && !dip_cost_interrupted(j->cost, err);
     }
     return judged && judge_bursts(j, err);
 }

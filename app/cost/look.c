@@ -94,7 +94,7 @@ bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err) {
     };
     DipDriver *driver = dip_driver_create(&def, &calls, err);
     bool done = driver && dip_drive(driver, "frames to see whether the machine is quiet", "cost",
-                                    DIP_COST_INTERRUPTED, err);
+                                    dip_cost_interrupted_text(cost), err);
     if (done) {
         const DipTimes times = dip_driver_times(driver);
         DipTimesFit *fit = dip_times_fit(&times, err);

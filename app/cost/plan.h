@@ -2,7 +2,7 @@
 // for every step of every setting but mip colours, on the camera path made for this setting, and a
 // row for every combination that --combine asks for. Steps and combinations that the renderer
 // refuses have no rows. With --predict, only the steps of the combined settings have rows, all on
-// path 0. Rows for combinations are added later (steps.h).
+// path 0, and rows for other combinations are added later (steps.h).
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 

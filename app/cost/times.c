@@ -113,7 +113,7 @@ static bool average_work(const Timing *t, DipError *err) {
             if (t->counted[s * frames + f]) {
                 continue;
             }
-            if (dip_cost_interrupted(err) ||
+            if (dip_cost_interrupted(subject->cost, err) ||
                 !dip_cost_prepare_timed(subject->cost, subject->quality, subject->path, f, err) ||
                 !dip_cost_draw_timed(subject->cost, subject->quality, subject->path, f, &drawn,
                                      err)) {
@@ -252,7 +252,7 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
     };
     DipDriver *driver = dip_driver_create(&def, &calls, err);
     bool done = driver && (where != KEPT || resume(t, driver, err)) &&
-                dip_drive(driver, progress, "cost", DIP_COST_INTERRUPTED, err);
+                dip_drive(driver, progress, "cost", dip_cost_interrupted_text(t->cost), err);
     if (done) {
         const DipTimes times = dip_driver_times(driver);
         t->machine = dip_driver_machine(driver, report->threads);

@@ -139,7 +139,8 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
         DipFrame frame;
         // The path is divided into `frames` equal parts. This frame is the middle of part k.
         const int index = dip_cost_frame_count(cost->report) * (2 * k + 1) / (2 * frames);
-        if (dip_cost_interrupted(err) || !dip_cost_prepare_timed(cost, quality, 0, index, err) ||
+        if (dip_cost_interrupted(cost, err) ||
+            !dip_cost_prepare_timed(cost, quality, 0, index, err) ||
             !dip_cost_draw_timed(cost, quality, 0, index, &frame, err)) {
             return false;
         }

@@ -69,7 +69,7 @@ static void start_guest(Host *host, int argc, char **argv) {
     char id[32];
     char *arguments[MAX_ARGUMENTS + 5] = {argv[1], "--window-id", id, "--control", "-"};
     snprintf(id, sizeof id, "%lu", host->area);
-    for (int i = 2; i < argc && i < MAX_ARGUMENTS; ++i) {
+    for (int i = 2; i < argc; ++i) {
         arguments[i + 3] = argv[i];
     }
     if (pipe(to_guest) != 0 || pipe(from_guest) != 0 || (host->guest = fork()) < 0) {
@@ -140,6 +140,11 @@ int main(int argc, char **argv) {
     if (argc < 2 || !host.display) {
         fprintf(stderr, argc < 2 ? "Usage: diptych_host PROGRAM [ARGUMENT]...\n"
                                  : "diptych_host: there is no X11 display\n");
+        return 2;
+    }
+    if (argc > MAX_ARGUMENTS) {
+        fprintf(stderr, "diptych_host: %d arguments, at most %d accepted\n", argc - 1,
+                MAX_ARGUMENTS - 1);
         return 2;
     }
     signal(SIGPIPE, SIG_IGN); // The guest may end at any time.

@@ -30,9 +30,9 @@ extern const DipCostLimits dip_cost_wait_limits;
 extern const DipCostLimits dip_cost_spread_limits;
 extern const DipCostLimits dip_cost_offset_limits;
 
-// Collects the signs from the times of the subjects (the combinations that were timed, rounds.h) 0
-// to subjects - 1. `same` lists the A/A subjects. Sets `wait` to 0 and `settled` to true, because
-// the times do not tell them.
+// Collects the signs from the times of subjects 0 to subjects - 1. A subject is a combination that
+// was timed (rounds.h). `same` lists the A/A subjects. Sets `wait` to 0 and `settled` to true,
+// because the times do not tell them.
 DipCostSigns dip_cost_signs_of(const DipTimesFit *fit, int subjects, const int *same,
                                int same_count);
 

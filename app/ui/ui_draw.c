@@ -246,8 +246,8 @@ static void move_focus_towards(DipUi *ui, int dx, int dy) {
     ui->focus = best ? best->id : ui->focus;
 }
 
-// Moves the focus by an event that no control took. Returns true if the event is Tab, or an arrow
-// key while the focus shows.
+// Moves the focus by an event that no control took. Returns true if the event is a
+// press of Tab, or of an arrow key while the focus shows, with no modifier but Shift.
 static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
     const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
     if (event->kind != DIP_EVENT_KEY_DOWN || !plain) {

@@ -1,5 +1,6 @@
 // Declares the command `diptych verify`. It checks that this machine draws the same bits as every
-// other machine, and measures the catalogue of numerically hard cases.
+// other machine, and measures each numerically hard case of docs/stability.md
+// against an independent truth.
 #ifndef DIP_APP_VERIFY_VERIFY_H
 #define DIP_APP_VERIFY_VERIFY_H
 

@@ -44,7 +44,8 @@ typedef struct Duel {
 
 enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
 
-// Pause in nanoseconds before each frame, in which the threads of the other program fall asleep.
+// Pause in nanoseconds before each timed frame. If there are two programs, the threads of the
+// program that drew last fall asleep in this pause.
 static const int64_t rest_ns = 1000000;
 
 // --- the command line of the programs ------------------------------------------------------------
@@ -285,7 +286,8 @@ static void compare_pair(const Duel *duel, const DipCostDiffArguments *arguments
     row->surely_below = row->change.high;
 }
 
-// Estimates the changes of all rows for each stage, as if only this stage differed.
+// Computes for each row and each stage by what factor the time of the whole frame would change if
+// only this stage took another time.
 static bool compare_stages(const Duel *duel, DipCostDiff *diff, DipError *err) {
     const DipTimes times = dip_driver_times(duel->driver);
     for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {

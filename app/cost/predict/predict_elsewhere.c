@@ -143,8 +143,9 @@ static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipC
 
 // --- predicting and judging ----------------------------------------------------------------------
 
-// Fits prices to all rows of the report, on all of its paths, to its combinations of half the size
-// (report->smaller), and to `count` combinations that were timed there.
+// Fits prices to all rows of the report on all of its paths, to the combinations that the report
+// timed at half its width and height (report->smaller), and to `count` combinations that were timed
+// there.
 static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewhere *timed,
                         int count) {
     return dip_cost_model_fit_there(&p->report, NULL, p->report.row_count, timed, count);

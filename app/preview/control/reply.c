@@ -116,6 +116,9 @@ static void add_errors(cJSON *object, const DipPreviewMoment *moment) {
     cJSON_AddNumberToObject(object, "samples", result->samples);
     cJSON_AddBoolToObject(object, "final", result->last);
     for (int p = 0; p < DIP_PANE_COUNT && result->samples > 0; ++p) {
+        if (result->panes[p].unjudged) {
+            continue; // The pane shows mip colours: a client must not take 0 for its error.
+        }
         cJSON *pane = cJSON_AddObjectToObject(object, dip_pane_names[p]);
         cJSON_AddNumberToObject(pane, "rmse_lin", result->panes[p].rmse_lin);
         cJSON_AddNumberToObject(pane, "psnr_db", result->panes[p].psnr_db);

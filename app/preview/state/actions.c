@@ -251,11 +251,13 @@ static void next_map(const Act *act) {
 // Doubles or halves the brightness if a map is chosen, or the gain if the difference is chosen.
 // Otherwise moves the wipe's divider by 5 % of the picture's width.
 static void adjust(const Act *act) {
-    enum { MAX_GAIN = 64 };
+    enum { MAX_GAIN = 64, MOST_BRIGHTNESS = 1 << (DIP_BRIGHTNESS_COUNT - 1) };
     DipToolState *tools = &act->state->tools;
     if (tools->map != DIP_MAP_NONE) {
         const double brightness = tools->brightness * (act->reverse ? 0.5 : 2.0);
-        tools->brightness = brightness < 1.0 ? 1.0 : brightness > 64.0 ? 64.0 : brightness;
+        tools->brightness = brightness < 1.0               ? 1.0
+                            : brightness > MOST_BRIGHTNESS ? MOST_BRIGHTNESS
+                                                           : brightness;
     } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
         const int gain = act->reverse ? tools->gain / 2 : tools->gain * 2;
         tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;

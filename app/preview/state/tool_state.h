@@ -45,6 +45,8 @@ typedef enum DipMap {
 enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
 
 // The choices of the user. Plain data; part of the preview's state.
+enum { DIP_BRIGHTNESS_COUNT = 4 }; // Number of brightnesses of maps (DipToolState.brightness).
+
 typedef struct DipToolState {
     DipTab tab;
     bool open;        // The dock is open and shows `tab`.
@@ -66,8 +68,8 @@ typedef struct DipToolState {
                         // (`blinks`) reverses this.
     bool blinks;        // BLINK: a timer switches between the panes, twice a second.
     DipMap map;
-    double brightness; // The value at the end of a map's colour scale is divided by this. A value
-                       // below 1 counts as 1.
+    double brightness; // The value at the end of a map's colour scale is divided by this: 1, 2, ...
+                       // 1 << (DIP_BRIGHTNESS_COUNT - 1). A value below 1 counts as 1.
 } DipToolState;
 
 #endif

@@ -149,7 +149,7 @@ static void brightness_buttons(const Tab *tab, DipRect rest) {
     const double brightness = fmax(1.0, tab->tools->brightness);
     rest.width = px(tab, 100);
     dip_cut_left(&rest, put(tab, NOTE, dip_style_soft, rest, 4, "Brightness") + px(tab, 8));
-    for (int i = 0; i < BRIGHTNESS_COUNT; i++) {
+    for (int i = 0; i < DIP_BRIGHTNESS_COUNT; i++) {
         char text[8];
         snprintf(text, sizeof text, "%dx", 1 << i);
         if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_BRIGHTNESS + i),

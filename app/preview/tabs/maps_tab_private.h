@@ -26,7 +26,7 @@ enum {
 };
 
 enum { ID_MAP = 1, ID_OVER = 20, ID_BRIGHTNESS = 30 };
-enum { CHART_BINS = 25, BRIGHTNESS_COUNT = 4 };
+enum { CHART_BINS = 25 };
 
 // Everything that functions need to draw the tab's blocks.
 typedef struct Tab {

@@ -215,8 +215,10 @@ void dip_section_answer(DipForm *form, const DipCostReport *report) {
     if (form->is_page && choice->advice_count > 0) {
         dip_form_paragraph(form, "note",
                            "Advised is the least FLIP whose %s time along path %s is within the "
-                           "budget with at least 95 %%; of settings within 1 %% of it, the "
-                           "fastest. \u201cNext better\u201d is the fastest combination whose FLIP "
+                           "budget with at least 95 %%. Of the settings within 1 %% of that FLIP "
+                           "whose times cannot be told from the fastest one's, it is the set that "
+                           "leaves most settings at their defaults. \u201cNext better\u201d is the "
+                           "fastest combination whose FLIP "
                            "is at least 1 %% below that of the advised one.",
                            dip_time_kind_names[choice->candidates.kind], report->paths[0]);
     }
@@ -346,8 +348,8 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report) {
         form, NULL,
         "The times and errors of %d combinations on path %s were predicted from %d "
         "measured ones. The %d combinations that the prediction found best were then "
-        "measured; beneath, each of the first ones is predicted from the others, "
-        "too.%s",
+        "measured. The table also tells how well each of the combinations that were measured "
+        "first is predicted from the others of these.%s",
         dip_cost_searched(report), report->paths[0], p->trained, p->times.rows,
         p->count > DIP_COST_MOST_COUNTED
             ? " The work of combinations was composed from the work of those that change fewer "

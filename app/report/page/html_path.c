@@ -61,8 +61,8 @@ static void list_lines(Lines *lines) {
     }
 }
 
-// Lists the times at every n-th frame, so that there are at most MOST_FRAMES.
-static void list_times(Lines *lines) {
+// Lists the times at every n-th frame, so that there are at most MOST_FRAMES. Returns n.
+static int list_times(Lines *lines) {
     const int frames = dip_cost_frame_count(lines->report);
     const int step = (frames + MOST_FRAMES - 1) / MOST_FRAMES;
     lines->points = (frames + step - 1) / step;
@@ -73,6 +73,7 @@ static void list_times(Lines *lines) {
             lines->values[i][f] = ms[f * step];
         }
     }
+    return step;
 }
 
 // Lists the FLIP at the viewpoints that were judged for all lines.
@@ -138,11 +139,18 @@ bool dip_html_path(DipForm *form, const DipCostReport *report) {
     }
     lines->report = report;
     list_lines(lines);
-    list_times(lines);
+    const int step = list_times(lines);
+    char stride[64] = "every timed frame";
+    if (step > 1) {
+        snprintf(stride, sizeof stride, "one in %d of the timed frames", step);
+    }
     dip_form_heading(form, "along", "Time and error along the path");
-    dip_form_paragraph(form, NULL,
-                       "The plots show the times of the baseline and of the advised settings "
-                       "at every timed frame, and their mean FLIP at every viewpoint.");
+    dip_form_paragraph(
+        form, NULL,
+        "The plots show the times of %s at %s, and their mean FLIP at every viewpoint "
+        "that was judged for all of them.",
+        lines->count > 1 ? "the baseline and of the other settings in the legend" : "the baseline",
+        stride);
     write_plot(lines, "Time along the path", "time of a frame, ms", 2, "ms", form->out);
     list_errors(lines);
     if (lines->points >= 2) {

@@ -406,7 +406,26 @@ static void errors_are_measured_for_subscribers(void **state) {
         }
     }
     assert_non_null(strstr(line, "\"requested\":{\"rmse_lin\":"));
+    assert_non_null(strstr(line, "\"current\":{\"rmse_lin\":"));
     assert_false(state_now()->panel);
+}
+
+// A pane that shows mip colours is not judged: its error is left out and not sent as 0.
+static void a_pane_that_is_not_judged_has_no_error(void **state) {
+    (void)state;
+    assert_ok("{\"request\":\"set\",\"pane\":\"current\",\"change\":\"mipdebug=on\"}");
+    assert_ok("{\"request\":\"subscribe\",\"to\":\"errors\"}");
+    const char *line = "";
+    for (int i = 0; i < 120000 && !strstr(line, "\"flip\":"); ++i) {
+        const struct timespec millisecond = {0, 1000000};
+        nanosleep(&millisecond, NULL);
+        turn();
+        if (!line_client_take(&client, &line)) {
+            line = "";
+        }
+    }
+    assert_non_null(strstr(line, "\"requested\":{\"rmse_lin\":"));
+    assert_null(strstr(line, "\"current\":{\"rmse_lin\":"));
 }
 
 // Returns the price of a step in an event of prices, or NULL.
@@ -592,6 +611,7 @@ int main(int argc, char **argv) {
         CONTROL_TEST(subscribers_hear_of_every_change),
         CONTROL_TEST(times_come_while_the_camera_moves),
         CONTROL_TEST(errors_are_measured_for_subscribers),
+        CONTROL_TEST(a_pane_that_is_not_judged_has_no_error),
         CONTROL_TEST(prices_are_measured_for_subscribers),
         CONTROL_TEST(prices_read_a_broken_scene_file_only_once),
         CONTROL_TEST(clicks_are_picks),
