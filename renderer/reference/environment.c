@@ -4,6 +4,7 @@
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +15,9 @@ enum { ROUGHNESSES = 17, SOFT = 0, MOST_WIDTH = 1024 };
 // Sums around a grid of directions: `across` meridians, and `across / 2 + 1` parallels with both
 // poles. A sum that is not made is NaN.
 typedef struct Grid {
-    double (*sums)[3];
+    // The first value of a direction is NAN until the others are there. Threads that need the same
+    // direction at the same time compute the same values.
+    _Atomic double (*sums)[3];
     int across;
 } Grid;
 
@@ -219,17 +222,21 @@ static void read_grid(const DipRefEnvironment *environment, int index, const dou
     for (int i = 0; i < 4; i++) {
         const int column = (x + (i & 1)) % grid->across;
         const int row = y + (i >> 1);
-        double *sum = grid->sums[row * grid->across + column];
-        if (isnan(sum[0])) {
+        _Atomic double *sum = grid->sums[row * grid->across + column];
+        if (isnan(atomic_load_explicit(&sum[0], memory_order_acquire))) {
+            double light[3];
             const double azimuth = 2.0 * pi * column / grid->across - pi;
             const double polar = pi * row / down;
             const double towards[3] = {sin(polar) * cos(azimuth), cos(polar),
                                        sin(polar) * sin(azimuth)};
-            add_up(environment, towards, index == SOFT ? 0.0 : pow(index / 16.0, 2.0), sum);
+            add_up(environment, towards, index == SOFT ? 0.0 : pow(index / 16.0, 2.0), light);
+            for (int c = 2; c >= 0; c--) {
+                atomic_store_explicit(&sum[c], light[c], memory_order_release);
+            }
         }
         const double share = (i & 1 ? u - x : 1.0 - (u - x)) * (i & 2 ? v - y : 1.0 - (v - y));
         for (int c = 0; c < 3; c++) {
-            rgb[c] += share * sum[c];
+            rgb[c] += share * atomic_load_explicit(&sum[c], memory_order_relaxed);
         }
     }
 }
@@ -262,7 +269,7 @@ static bool make_grid(Grid *grid, int across) {
     grid->across = across;
     grid->sums = malloc(count * sizeof *grid->sums);
     for (size_t i = 0; grid->sums && i < count; i++) {
-        grid->sums[i][0] = NAN;
+        atomic_init(&grid->sums[i][0], NAN);
     }
     return grid->sums != NULL;
 }
