@@ -42,7 +42,7 @@ typedef struct Duel {
     DipBenchSample *first;
 } Duel;
 
-enum { MOST_ARGUMENTS = 40 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
+enum { MOST_ARGUMENTS = 48 + 2 * DIP_MAX_MODELS, MOST_SUBJECTS = 2 * (DIP_COST_DIFF_MAX_SETS + 1) };
 
 // Pause in nanoseconds before each timed frame. If there are two programs, the threads of the
 // program that drew last fall asleep in this pause.
@@ -53,7 +53,7 @@ static const int64_t rest_ns = 1000000;
 typedef struct CommandLine {
     char *list[MOST_ARGUMENTS];
     int count;
-    char numbers[8][24]; // Texts of the options that are numbers.
+    char numbers[8][32]; // Texts of the options that are numbers.
     int number_count;
 } CommandLine;
 
@@ -94,6 +94,13 @@ static void add_session(CommandLine *line, const DipSessionOptions *session) {
     }
     if (session->force_all_effects) {
         line->list[line->count++] = (char *)"--force-all-effects";
+    }
+    if (session->no_ground) {
+        line->list[line->count++] = (char *)"--no-ground";
+    }
+    add_option(line, "--animation", session->animation);
+    if (session->has_animation_time) {
+        add_number(line, "--animation-time", "%.17g", session->animation_time_s);
     }
     add_option(line, "--path", session->path);
     add_option(line, "--category", session->category);
@@ -286,8 +293,8 @@ static void compare_pair(const Duel *duel, const DipCostDiffArguments *arguments
     row->surely_below = row->change.high;
 }
 
-// Computes for each row and each stage by what factor the time of the whole frame would change if
-// only this stage took another time.
+// Computes for each row and each stage by what factor A's time of the whole frame would change if
+// only this stage took as long as it takes in B.
 static bool compare_stages(const Duel *duel, DipCostDiff *diff, DipError *err) {
     const DipTimes times = dip_driver_times(duel->driver);
     for (int stage = 0; stage < DIP_COST_DIFF_STAGES; stage++) {
@@ -374,7 +381,7 @@ static int list_rows(const DipCostDiffArguments *arguments, const DipCostReport 
 }
 
 // Adds a combination as a set. Another build may not know every setting, so settings that have
-// their defaults are left out.
+// their defaults are left out. If all have, the set is "aa=none", because a set may not be empty.
 static void add_quality(Duel *duel, const DipQuality *quality) {
     const DipQuality standard = dip_quality_default();
     char text[DIP_COST_TEXT] = "aa=none";
@@ -384,10 +391,10 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
-// Returns the options. The options of size, threads, instruction set and camera path that were not
-// given get the values with which the report was measured. The path gets its value only if no model
-// was given, either. If this machine lacks the report's instruction set, the best one that the
-// machine has takes its place.
+// Returns the arguments, completed from the report: the options of size, threads, instruction set
+// and camera path that were not given get the values with which the report was measured. The path
+// gets its value only if no model was given, either. If this machine lacks the report's instruction
+// set, the best one that the machine has takes its place.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;

@@ -156,8 +156,9 @@ static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, 
     return row;
 }
 
-// Adds a note that names the first NAMED_ROWS rows that only this side has, and tells their number
-// if there are more. Adds none if one side is a program that measured only some rows.
+// Adds a note that names the first NAMED_ROWS rows in `lonely`: rows on paths of both sides that
+// only this side has. If there are more, the note also tells how many there are in all. Adds none
+// if one side is a program that measured only some rows.
 static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bool *lonely,
                         const char *side) {
     char text[DIP_COST_DIFF_NOTE] = "";

@@ -1,9 +1,10 @@
 #!/bin/sh
 # Compares programs that make up their times (fake_bench.c), so that the truth is known.
-# Usage: diff_fake_programs.sh DIPTYCH FAKE_BENCH
+# Usage: diff_fake_programs.sh DIPTYCH FAKE_BENCH MODEL
 set -u
 diptych=$1
 fake=$2
+model=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -64,5 +65,15 @@ expect 0 '^all 8 rows:' 'triangles_in +\+0\.033 %; 1000 in A, 1000.333333 in B' 
     -- ./base ./counts --fail-over 1%
 expect 0 'pictures +3 frames differ' -- ./base ./pictures --fail-over 1%
 expect 3 '^verdict  red' 'the machine was too busy to compare times' -- ./wild ./wild --fail-over 1%
+
+# Both programs get the options that say what they draw.
+printf '#!/bin/sh\necho "$@" >>"$0.arguments"\nexec ./base "$@"\n' >recorded
+chmod +x recorded
+expect 0 '^verdict' -- ./recorded ./recorded --model "$model" --no-ground --animation none --animation-time 1.5
+grep -q -- '--no-ground --animation none --animation-time 1.5' recorded.arguments || {
+    echo "FAILED: the programs did not get the options of the scene:"
+    head -1 recorded.arguments
+    failures=$((failures + 1))
+}
 echo "$failures failed"
 [ $failures = 0 ]
