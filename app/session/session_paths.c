@@ -164,6 +164,12 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
     if (!camera->file.path) {
         return true;
     }
+    const DipSessionCamera *own = camera_of(session, camera->file.path, camera->file.text);
+    if (own) {
+        const bool given = session->config.line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
+        return play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg,
+                    own->name);
+    }
     for (int other = 0; other < category; other++) {
         const DipConfigFile *file = &session->config.camera[other].file;
         if (file->path && dip_config_same_file(file, &camera->file) &&
@@ -171,12 +177,6 @@ static bool load_category(DipSession *session, int category, DipErrorList *fault
             return play(session, category, session->track.categories[other].path, camera->fov_y_deg,
                         NULL);
         }
-    }
-    const DipSessionCamera *own = camera_of(session, camera->file.path, camera->file.text);
-    if (own) {
-        const bool given = session->config.line[DIP_KEY_CAMPATH_DEFAULT + 2 * category + 1] > 0;
-        return play(session, category, own->path, given ? camera->fov_y_deg : own->fov_y_deg,
-                    own->name);
     }
     DipCamPath *path;
     DipError err;

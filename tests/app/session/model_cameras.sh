@@ -26,6 +26,9 @@ fov_of() {
 printf 'RES: 8x8\nXFILE: cameras.gltf\nCAMPATH_DEFAULT: Still\nCAMPATH_AA: Lens\nCAMPATH_AA_FOV: 31\n' >cameras.ini
 check "the ini's path can be a camera" test "$(fov_of --config cameras.ini | cut -c1-8)" = 68.75493
 check "the ini's field of view comes first" test "$(fov_of --config cameras.ini --category AA)" = 31
+printf 'RES: 8x8\nXFILE: cameras.gltf\nCAMPATH_DEFAULT: Lens\nCAMPATH_AA: Lens\n' >twice.ini
+check "two of the ini's paths can be one camera" \
+    test "$(fov_of --config twice.ini)" = "$(fov_of --config twice.ini --category AA)"
 hash_of() {
     "$diptych" dump "$@" --size 16x16 --hash 2>err.txt
 }
