@@ -82,7 +82,7 @@ void dip_bench_result_work(const DipBenchResult *result, int combination,
 // --- measuring -----------------------------------------------------------------------------------
 
 // Greatest number of subjects in a block besides the base (driver.h), if one program is measured.
-// The reports of `diptych cost` have the same number (app/cost/times.c).
+// `diptych cost` times as many rows beside one drawing of the baseline (app/cost/times.c).
 enum { BLOCK_SUBJECTS = 4 };
 
 // The driver's subject i (driver.h) is combination i / source_count of source i % source_count. If

@@ -10,7 +10,8 @@ typedef struct DipProgress {
     const char *things; // What is counted, such as "frames". Borrowed.
     int64_t total;      // Number of things in all.
     int64_t begin_ns;   // When the work began, by dip_clock_ns.
-    int64_t shown_ns;   // When the progress was last shown, by dip_clock_ns; begin_ns before that.
+    int64_t shown_ns;   // When the progress was last shown, by dip_clock_ns; begin_ns until it is
+                        // first shown.
     double expected_s;  // Time that the work is expected to take; 0 if not known.
     bool terminal;      // True if standard error is a terminal.
 } DipProgress;

@@ -1,13 +1,15 @@
-// Predicts combinations from those that were measured. Their times are those of a model of work
-// (fit.h), corrected by what it misses at combinations that are alike. Their FLIP comes from that
-// of all measured combinations alone (flip_model.h).
+// Predicts combinations from those that were measured. A predicted time is the value of a model of
+// work (fit.h), multiplied by a correction. The correction follows from measured / modelled time at
+// the measured combinations; those with similar settings count most. FLIP is predicted without a
+// model of work, only from the FLIP of the measured combinations (flip_model.h).
 #include "app/cost/steps.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// What a model of work misses is alike at combinations that are alike: its covariance is this
-// number to the power of their distance, plus the variance of what each misses of its own.
+// The logarithms of measured / modelled time are a Gaussian process (process.h). The covariance of
+// two combinations is alike_time to the power of their distance in steps. own_time is the further
+// variance that each combination has by itself.
 static const double alike_time = 0.6, own_time = 0.3;
 
 static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_ROWS]) {
@@ -36,7 +38,8 @@ static double log_ratio(double measured, double predicted) {
     return measured > 0.0 && predicted > 0.0 ? log(measured / predicted) : 0.0;
 }
 
-// Makes the rows known to the process of times, and computes the shares of what the model misses.
+// Adds the rows to the Gaussian process of_times, and computes each row's share (process.h) in the
+// corrections of means and of 95th percentiles.
 static bool correct_times(const DipCostReport *report, DipCostModels *models, const int *rows,
                           int count) {
     double ms_logs[DIP_COST_MAX_ROWS], p95_logs[DIP_COST_MAX_ROWS];

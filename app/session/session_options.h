@@ -17,8 +17,9 @@ enum { DIP_MAX_MODELS = 64 };
 // reads config/NAME.ini.
 #define DIP_SHIPPED_SCENE_LIST(X) X(courtyard) X(torture)
 
-// The values of the options. Texts are borrowed from argv. If an option is not given, its text is
-// NULL or its has_... is false, and the ini decides.
+// The values of the options. Texts are borrowed from argv. A text is NULL, and a has_... is false,
+// if the option is not given; then the ini decides if it has a key for it. Every other field is 0
+// if its option is not given, which stands for the option's default.
 typedef struct DipSessionOptions {
     const char *config;
     const char *models[DIP_MAX_MODELS];

@@ -70,9 +70,9 @@ static void press_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *inpu
     ui->taken = true;
 }
 
-// Adds `turned` steps of a wheel to the part of a step that earlier events have left, unless the
-// wheel now turns the other way. Returns the whole steps, from -16 to 16, and keeps the part of a
-// step that is left. Touch pads send parts of steps.
+// Adds `turned` steps of a wheel to the part of a step that earlier events have left. If the wheel
+// now turns the other way, that part is dropped first. Returns the whole steps, from -16 to 16, and
+// keeps the part of a step that is left. Touch pads send parts of steps.
 static int wheel_steps(DipUi *ui, double turned) {
     if (turned * ui->wheel_rest < 0.0) {
         ui->wheel_rest = 0.0;

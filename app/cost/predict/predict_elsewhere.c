@@ -200,7 +200,7 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
 // --- the whole -----------------------------------------------------------------------------------
 
 // A copy of the command's session for one of two places: "here", where the report was measured, or
-// "there". It has the same scene, but its own threads and instruction set.
+// "there". It has the same scene, but the number of threads and the instruction set of its place.
 typedef struct Place {
     DipSession session;
     DipPool *pool; // Owned; NULL if the pool of the command's session has the right number of

@@ -109,6 +109,7 @@ const DipKeyRow dip_key_rows[] = {
     CTRL('q', QUIT, 0, false, "Ctrl+Q", "Quit"),
 };
 
+_Static_assert(DIP_ARRAY_COUNT(dip_key_rows) <= DIP_MAX_KEY_ROWS, "room for all keys");
 const int dip_key_row_count = (int)DIP_ARRAY_COUNT(dip_key_rows);
 
 static const unsigned command_modifiers = DIP_MODIFIER_CTRL | DIP_MODIFIER_ALT | DIP_MODIFIER_SUPER;

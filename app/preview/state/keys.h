@@ -19,6 +19,7 @@ typedef struct DipKeyRow {
     const char *text;  // The help's text. NULL without a label, and for SETTING (its title shows).
 } DipKeyRow;
 
+enum { DIP_MAX_KEY_ROWS = 96 }; // Bound of dip_key_row_count.
 extern const DipKeyRow dip_key_rows[];
 extern const int dip_key_row_count;
 

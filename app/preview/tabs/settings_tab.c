@@ -15,7 +15,8 @@ enum {
     GROUP_WIDTH = 94,
     EDITOR_WIDTH = 376,
     SUM_WIDTH = 282,
-    WIDE = 1180,  // Least width of a dock that shows the list, the editor and the sum side by side.
+    WIDE = 1180, // Least width of a dock that shows the list, the editor and the sum of prices side
+                 // by side.
     MEDIUM = 560, // Least width of a dock that shows the list and, to its right, the editor above
                   // the sum.
     ENTRY_HEIGHT = 21,
@@ -25,7 +26,8 @@ enum {
     EDITOR_HEIGHT = 78 // Height of an editor that stands above the sum.
 };
 
-// The settings in the order in which the tab shows them, and the names of their groups. An entry
+// The settings in the order in which a wide or medium tab shows them (the drawer has the order of
+// DIP_SETTING_LIST), and the names of their groups. An entry
 // whose group is "" belongs to the group above it. A column ends at an entry whose group is NULL,
 // or after ENTRIES entries.
 enum { COLUMNS = 2, ENTRIES = 8 };

@@ -3,7 +3,6 @@
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
-#include "renderer/base/assert.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -14,7 +13,7 @@ enum {
     LARGEST_HELP_LETTERS = 17, // Largest letter size of the list of keys, at scale 1.
     TOP_EDGE_PX = 2,
     EDGE_PX = 8, // Pixels of the window's width and height that the list of keys leaves free.
-    MAX_HELP_ROWS = 64,
+    MAX_HELP_ROWS = DIP_MAX_KEY_ROWS,
     MAX_HELP_GROUPS = 3, // The keys stand in up to three groups beside each other.
     MAX_COLUMNS = 1 + 3 * DIP_COST_MAX_SWEEP_ROWS
 };
@@ -197,7 +196,6 @@ static int list_keys(Table *table, const char *words) {
                                ? dip_setting_info((DipSetting)key->argument)->title
                                : key->text;
         if (key->label && (holds(key->label, words) || holds(text, words))) {
-            DIP_ASSERT(count < MAX_HELP_ROWS);
             Cell *cells = &table->cells[count % table->rows][count / table->rows * 2];
             cells[0] = (Cell){key->label, dip_style_accent, false};
             cells[1] = (Cell){text, dip_style_white, false};
