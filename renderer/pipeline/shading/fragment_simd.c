@@ -14,11 +14,14 @@ enum { FEW_CHANGES = DIP_LANES * 3 / 4 };
 
 enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 1 };
 
-// The planes of a vector of fragments (triangle.h). If all lanes have the same triangle, `one`
-// points to its floats. Otherwise `one` is NULL and rows[i] holds float i of each lane's triangle.
+// The planes of a vector of fragments (triangle.h): those of a few triangles, each with the lanes
+// that it has, or floats that were gathered for each lane. Lanes that no triangle from number 1 on
+// has belong to number 0.
 typedef struct VaryingPlanes {
-    const float *one;
-    const Vf *rows;
+    int count; // number of triangles; 0: the floats were gathered
+    const float *triangle[FEW_TRIANGLES];
+    Mask lanes[FEW_TRIANGLES];
+    const Vf *rows; // gathered: rows[i] has float i of each lane's triangle
 } VaryingPlanes;
 
 // The value of a plane at the fragments' positions, and its derivatives along x and y.
@@ -32,44 +35,52 @@ VEC_INLINE const float *planes_of(const DipShadingInput *input, uint32_t triangl
     return input->planes + (size_t)triangle * (size_t)input->plane_stride;
 }
 
-// Reads the planes of a vector with several triangles. If there are few triangles, the floats of
-// each triangle are blended into its lanes, which costs less than one gather per float. left: the
-// lanes whose triangle differs from the first lane's triangle.
-VEC_INLINE void read_rows(const DipShadingInput *input, const uint32_t *triangle, unsigned left,
-                          int count, Vf *rows) {
+// Finds the triangles of a vector. If there are more than a few, sets their number to 0.
+VEC_INLINE void find_triangles(const DipShadingInput *input, const uint32_t *triangle,
+                               VaryingPlanes *planes) {
     const Vi ids = vi_load((const int32_t *)triangle);
-    const float *first = planes_of(input, triangle[0]);
-    for (int f = 0; f < count; f++) {
-        rows[f] = vf_splat(first[f]);
-    }
-    for (int n = 1; left && n < FEW_TRIANGLES; n++) {
+    unsigned left = mask_bits(vi_eq(ids, vi_splat((int32_t)triangle[0]))) ^ VEC_ALL_LANES;
+    planes->triangle[0] = planes_of(input, triangle[0]);
+    planes->count = 1;
+    while (left && planes->count < FEW_TRIANGLES) {
         const uint32_t id = triangle[__builtin_ctz(left)];
         const Mask lanes = vi_eq(ids, vi_splat((int32_t)id));
-        const float *planes = planes_of(input, id);
-        for (int f = 0; f < count; f++) {
-            rows[f] = vf_select(lanes, vf_splat(planes[f]), rows[f]);
-        }
+        planes->triangle[planes->count] = planes_of(input, id);
+        planes->lanes[planes->count++] = lanes;
         left &= ~mask_bits(lanes);
     }
-    if (left) {
-        const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
-        const Vi offset = vi_pair_order(ids * input->plane_stride);
-        for (int f = 0; f < count; f += 2) { // planes are padded, so one float more may be read
-            const VuPair pair = vu_gather_pairs(planes + f, offset);
-            rows[f] = (Vf)vu_pair_left(pair);
-            rows[f + 1] = (Vf)vu_pair_right(pair);
-        }
+    planes->count = left ? 0 : planes->count;
+}
+
+// Gathers `count` floats of the planes of each lane's triangle.
+VEC_INLINE void gather_rows(const DipShadingInput *input, const uint32_t *triangle, int count,
+                            Vf *rows) {
+    const Vi ids = vi_load((const int32_t *)triangle);
+    const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
+    const Vi offset = vi_pair_order(ids * input->plane_stride);
+    for (int f = 0; f < count; f += 2) { // planes are padded, so one float more may be read
+        const VuPair pair = vu_gather_pairs(planes + f, offset);
+        rows[f] = (Vf)vu_pair_left(pair);
+        rows[f + 1] = (Vf)vu_pair_right(pair);
     }
 }
 
-VEC_INLINE Vf value_of(const VaryingPlanes *planes, int i) {
-    return planes->one ? vf_splat(planes->one[i]) : planes->rows[i];
+// Returns float i of each lane's planes. count: planes->count, as a constant.
+VEC_INLINE Vf value_of(const VaryingPlanes *planes, int count, int i) {
+    if (count == 0) {
+        return planes->rows[i];
+    }
+    Vf value = vf_splat(planes->triangle[0][i]);
+    for (int n = 1; n < count; n++) {
+        value = vf_select(planes->lanes[n], vf_splat(planes->triangle[n][i]), value);
+    }
+    return value;
 }
 
-VEC_INLINE Plane plane_at(const VaryingPlanes *planes, int i, Vf x, Vf y) {
-    const Vf dx = value_of(planes, i + 1);
-    const Vf dy = value_of(planes, i + 2);
-    return (Plane){(value_of(planes, i) + dx * x) + dy * y, dx, dy};
+VEC_INLINE Plane plane_at(const VaryingPlanes *planes, int count, int i, Vf x, Vf y) {
+    const Vf dx = value_of(planes, count, i + 1);
+    const Vf dy = value_of(planes, count, i + 2);
+    return (Plane){(value_of(planes, count, i) + dx * x) + dy * y, dx, dy};
 }
 
 // Returns one coordinate of a fragment's position, in pixels of the target. pixel: the pixel in the
@@ -79,20 +90,21 @@ VEC_INLINE Vf target_coordinate(Vi pixel, Vi sub, int tile_first) {
 }
 
 // Interpolates varyings: u = (u/w) / (1/w). By the quotient rule, du/dx = (d(u/w)/dx - u d(1/w)/dx)
-// / (1/w) is the exact derivative. The last value_only_count varyings get no derivatives.
-VEC_INLINE void interpolate(const VaryingPlanes *planes, Vf x, Vf y, int varying_count,
+// / (1/w) is the exact derivative. The last value_only_count varyings get no derivatives. count:
+// planes->count, as a constant.
+VEC_INLINE void interpolate(const VaryingPlanes *planes, int count, Vf x, Vf y, int varying_count,
                             int value_only_count, int i, DipFragmentBatch *batch) {
-    const Vf from_x = x - value_of(planes, DIP_PLANES_ANCHOR);
-    const Vf from_y = y - value_of(planes, DIP_PLANES_ANCHOR + 1);
-    const Plane q = plane_at(planes, DIP_PLANES_RW, from_x, from_y);
+    const Vf from_x = x - value_of(planes, count, DIP_PLANES_ANCHOR);
+    const Vf from_y = y - value_of(planes, count, DIP_PLANES_ANCHOR + 1);
+    const Plane q = plane_at(planes, count, DIP_PLANES_RW, from_x, from_y);
     const Vf w = vf_splat(1.0f) / q.at;
     const int gradient_count = varying_count - value_only_count;
     for (int s = gradient_count; s < varying_count; s++) {
-        const Plane over_w = plane_at(planes, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
+        const Plane over_w = plane_at(planes, count, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
         vf_store(batch->varying[s] + i, over_w.at * w);
     }
     for (int s = 0; s < gradient_count; s++) {
-        const Plane over_w = plane_at(planes, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
+        const Plane over_w = plane_at(planes, count, DIP_PLANES_VARYINGS + 3 * s, from_x, from_y);
         const Vf value = over_w.at * w;
         vf_store(batch->varying[s] + i, value);
         vf_store(batch->varying_dx[s] + i, (over_w.dx - value * q.dx) * w);
@@ -140,18 +152,23 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
         if (varying_count == 0) {
             continue;
         }
-        const uint32_t *triangle = list->triangle + i;
-        const Vi ids = vi_load((const int32_t *)triangle);
-        const unsigned others =
-            mask_bits(vi_eq(ids, vi_splat((int32_t)triangle[0]))) ^ VEC_ALL_LANES;
-        if (!others) {
-            const VaryingPlanes planes = {planes_of(input, triangle[0]), NULL};
-            interpolate(&planes, x, y, varying_count, value_only_count, i, batch);
+        VaryingPlanes planes;
+        find_triangles(input, list->triangle + i, &planes);
+        if (planes.count == 1) {
+            interpolate(&planes, 1, x, y, varying_count, value_only_count, i, batch);
+        } else if (planes.count == 2) {
+            interpolate(&planes, 2, x, y, varying_count, value_only_count, i, batch);
+        } else if (planes.count) {
+            for (int n = planes.count; n < FEW_TRIANGLES; n++) {
+                planes.triangle[n] = planes.triangle[0];
+                planes.lanes[n] = mask_from_bits(0);
+            }
+            interpolate(&planes, FEW_TRIANGLES, x, y, varying_count, value_only_count, i, batch);
         } else {
             Vf rows[MAX_ROWS];
-            const VaryingPlanes planes = {NULL, rows};
-            read_rows(input, triangle, others, dip_plane_floats(varying_count), rows);
-            interpolate(&planes, x, y, varying_count, value_only_count, i, batch);
+            planes.rows = rows;
+            gather_rows(input, list->triangle + i, dip_plane_floats(varying_count), rows);
+            interpolate(&planes, 0, x, y, varying_count, value_only_count, i, batch);
         }
     }
 }

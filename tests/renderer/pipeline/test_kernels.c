@@ -308,9 +308,11 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
         planes[i] = awkward(random, 2.0);
     }
     list.count = random_int(random, 1, DIP_FRAGMENT_BATCH);
-    const bool one_triangle = random_int(random, 0, 1);
+    // Vectors of one, a few and many triangles are interpolated in different ways.
+    const int first = random_int(random, 0, TRIANGLES - 8);
+    const int different = random_int(random, 0, 7);
     for (int i = 0; i < DIP_FRAGMENT_BATCH; i++) {
-        list.triangle[i] = one_triangle ? 3 : (uint32_t)random_int(random, 0, TRIANGLES - 1);
+        list.triangle[i] = (uint32_t)(first + random_int(random, 0, different));
         list.position[i] = (uint32_t)random_int(random, 0, (1 << 28) - 1);
     }
     const DipShadingInput input = {triangles, planes, dip_plane_stride(VARYINGS), 576, 448};
