@@ -32,14 +32,35 @@ void DIP_KERNEL(dip_kernel_surface_vertex)(const DipVertexBatch *batch) {
 void DIP_KERNEL(dip_kernel_surface_fragment)(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     float texture[3][DIP_FRAGMENT_BATCH];
-    start_colour(batch, texture);
+    float light_map[3][DIP_FRAGMENT_BATCH];
+    Factor factors[3];
+    int count = 0;
+    if (uniforms->colour_varying != DIP_ABSENT) {
+        batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_COLOUR],
+                             uniforms->colour_varying, texture);
+        factors[count++] = (Factor){texture, 1.0f};
+    }
     if (uniforms->light_map_varying != DIP_ABSENT) {
         batch->sample_colour(batch, &batch->samplers[DIP_SURFACE_SAMPLER_LIGHT_MAP],
-                             uniforms->light_map_varying, texture);
-        scale_colour(batch, texture, uniforms->light_map_scale);
+                             uniforms->light_map_varying, light_map);
+        factors[count++] = (Factor){light_map, uniforms->light_map_scale};
     }
     if (uniforms->light_varying != DIP_ABSENT) {
-        scale_colour(batch, batch->varying + uniforms->light_varying, 1.0f);
+        factors[count++] = (Factor){batch->varying + uniforms->light_varying, 1.0f};
+    }
+    switch (count) {
+    case 0:
+        set_colour(batch, factors, 0);
+        break;
+    case 1:
+        set_colour(batch, factors, 1);
+        break;
+    case 2:
+        set_colour(batch, factors, 2);
+        break;
+    default:
+        set_colour(batch, factors, 3);
+        break;
     }
 }
 

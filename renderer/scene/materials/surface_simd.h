@@ -101,6 +101,27 @@ VEC_INLINE void scale_colour(DipFragmentBatch *batch, float (*factor)[DIP_FRAGME
     }
 }
 
+// Light that multiplies a colour: light times scale.
+typedef struct Factor {
+    float (*light)[DIP_FRAGMENT_BATCH];
+    float scale;
+} Factor;
+
+// Sets the batch's colours to the base colour times `count` factors, in their order. Callers pass a
+// constant count.
+VEC_INLINE void set_colour(DipFragmentBatch *batch, const Factor *factors, int count) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        for (int c = 0; c < 3; c++) {
+            Vf colour = vf_splat(uniforms->base_colour_lin[c]);
+            for (int f = 0; f < count; f++) {
+                colour *= vf_load(factors[f].light[c] + i) * factors[f].scale;
+            }
+            vf_store(batch->colour[c] + i, colour);
+        }
+    }
+}
+
 // Sets the batch's colours to the base colour.
 VEC_INLINE void start_base_colour(DipFragmentBatch *batch) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
