@@ -402,6 +402,12 @@ typedef struct Read {
     int count;
 } Read;
 
+// Sums of weighted texels, with 16 bits per channel. The texels of a quad are still side by side.
+typedef struct QuadSum {
+    Vu red_green[4]; // red in the upper half
+    Vu blue[4];
+} QuadSum;
+
 // Sums of weighted texels per lane, with 32 bits per channel.
 typedef struct LightSum {
     Vu red_green; // packed sums modulo 2^32; green is this minus red << 16
@@ -437,30 +443,32 @@ VEC_INLINE Weights weigh_level(Vi between, Vu level_weight) {
     return join_weights(lower | ((level_weight & 0xffffu) - (lower >> 16)), between);
 }
 
-// Adds weighted texels to *red_green and *blue. The squares of a texel's roots are its linear
-// light; a weight has 16 bits.
-VEC_INLINE void add_texels(Vu *red_green, Vu *blue, Vu texels, Vu weight) {
-    const Vu b = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_FACTORS);
-    *red_green += vu_mulhi16(vu_mulhi16(texels, texels), weight);
-    *blue += vu_mulhi16(vu_mulhi16(b, b), weight);
+VEC_INLINE void clear_quads(QuadSum *sum) {
+    for (int k = 0; k < 4; k++) {
+        sum->red_green[k] = sum->blue[k] = vu_splat(0);
+    }
 }
 
-// Adds the light of a listed read. The weights of its texels sum to less than 65536, so red and
-// green do not overflow their halves.
-VEC_INLINE void add_read(LightSum *sum, const DipTexture *texture, const int32_t *index,
-                         const Weights *weights) {
-    const uint32_t *texels = (const uint32_t *)(const void *)texture->texels;
-    Vu red_green[4];
-    Vu blue[4];
+// Adds the weighted texels of a listed read. The squares of a texel's roots are its linear light; a
+// weight has 16 bits. The weights of all reads that are added must sum to less than 65536, so that
+// red and green do not overflow their halves.
+VEC_INLINE void add_quads(QuadSum *sum, const DipTexture *texture, const int32_t *index,
+                          const Weights *weights) {
+    const uint32_t *quads = (const uint32_t *)(const void *)texture->texels;
     for (int k = 0; k < 4; k++) {
-        red_green[k] = blue[k] = vu_splat(0);
-        add_texels(&red_green[k], &blue[k], vu_load_quads(texels, 2, index, k),
-                   vu_quad_weights(weights->left, weights->right, k));
+        const Vu texels = vu_load_quads(quads, 2, index, k);
+        const Vu weight = vu_quad_weights(weights->left, weights->right, k);
+        const Vu blue = vu_dot16(texels & DIP_TEXEL_BLUE, DIP_TEXEL_BLUE_FACTORS);
+        sum->red_green[k] += vu_mulhi16(vu_mulhi16(texels, texels), weight);
+        sum->blue[k] += vu_mulhi16(vu_mulhi16(blue, blue), weight);
     }
-    const Vu both = vu_quad_sum(red_green);
+}
+
+VEC_INLINE void add_sums(LightSum *sum, const QuadSum *quads) {
+    const Vu both = vu_quad_sum(quads->red_green);
     sum->red_green += both;
     sum->red += both >> 16;
-    sum->blue += vu_quad_sum(blue);
+    sum->blue += vu_quad_sum(quads->blue);
 }
 
 // Converts a sum to linear light, in which white is 1. The divisors are below 65535 because the
@@ -480,7 +488,10 @@ VEC_INLINE void add_probes(const Read *read, const ReadList *list, int first, in
     for (int i = first; i < first + count; i++) {
         const Weights weights = weigh_probe(vi_load(list->between[i]));
         for (int t = 0; t < read->count; t++) {
-            add_read(&sum[t], read->texture[t], list->index[i], &weights);
+            QuadSum quads;
+            clear_quads(&quads);
+            add_quads(&quads, read->texture[t], list->index[i], &weights);
+            add_sums(&sum[t], &quads);
         }
     }
     for (int t = 0; t < read->count; t++) {
@@ -492,13 +503,13 @@ VEC_INLINE void add_probes(const Read *read, const ReadList *list, int first, in
     }
 }
 
-// Adds the light of a level's single read. level_weight: 256 times the level's weight, or the
+// Adds the texels of a level's single read. level_weight: 256 times the level's weight, or the
 // complement, in both halves.
 VEC_INLINE void add_level(const Read *read, const ReadList *list, int i, Vu level_weight,
-                          LightSum sum[2]) {
+                          QuadSum quads[2]) {
     const Weights weights = weigh_level(vi_load(list->between[i]), level_weight);
     for (int t = 0; t < read->count; t++) {
-        add_read(&sum[t], read->texture[t], list->index[i], &weights);
+        add_quads(&quads[t], read->texture[t], list->index[i], &weights);
     }
 }
 
@@ -518,13 +529,19 @@ VEC_INLINE void filter_vector(const Read *read, ReadMode mode, const ReadList *l
     }
     const Vu fraction = (Vu)(footprints->lod8[n] & 255);
     const Vu weight = fraction << 8 | fraction << 24;
-    LightSum sum[2] = {NO_LIGHT, NO_LIGHT};
-    add_level(read, list, first, ~weight, sum);
+    QuadSum quads[2];
+    for (int t = 0; t < read->count; t++) {
+        clear_quads(&quads[t]);
+    }
+    // The weights of both levels sum to 65535, so both have one sum.
+    add_level(read, list, first, ~weight, quads);
     if (list->far[n] > 0) {
-        add_level(read, list, far, weight, sum);
+        add_level(read, list, far, weight, quads);
     }
     for (int t = 0; t < read->count; t++) {
-        sum_channels(&sum[t], light[t]);
+        LightSum sum = NO_LIGHT;
+        add_sums(&sum, &quads[t]);
+        sum_channels(&sum, light[t]);
     }
 }
 
