@@ -354,7 +354,6 @@ static void describe_pbr(const DipReference *reference, const DipMeshDef *mesh,
         return;
     }
     like->pbr = pbr;
-    like->pbr_tables = reference->pbr_tables;
     like->environment = reference->environment;
     if (pbr->metal_rough_map != DIP_NO_TEXTURE && mesh->uv0) {
         like->metal_rough = &reference->textures[pbr->metal_rough_map];

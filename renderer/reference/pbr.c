@@ -2,7 +2,7 @@
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <pthread.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -10,11 +10,13 @@ static const double pi = 3.14159265358979323846;
 enum { STEPS = 64, INTEGRAL_STEPS = 24 };
 
 // Shares of reflected light. Entry i of an axis is the value at (i + 0.5) / STEPS.
-struct DipRefPbrTables {
+typedef struct Tables {
     double a[STEPS][STEPS]; // over roughness and n.v
     double b[STEPS][STEPS];
     double grazing[STEPS]; // over n.v
-};
+} Tables;
+
+static Tables tables;
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -67,7 +69,7 @@ static void add_lobe(const double view[3], double alpha, double u, double w, dou
     }
 }
 
-static void fill_entry(DipRefPbrTables *tables, int r, int v) {
+static void fill_entry(int r, int v) {
     const double count = INTEGRAL_STEPS * INTEGRAL_STEPS;
     const double roughness = (r + 0.5) / STEPS;
     const double cosine = (v + 0.5) / STEPS;
@@ -75,24 +77,27 @@ static void fill_entry(DipRefPbrTables *tables, int r, int v) {
     for (int i = 0; i < INTEGRAL_STEPS * INTEGRAL_STEPS; i++) {
         const double u = (i / INTEGRAL_STEPS + 0.5) / INTEGRAL_STEPS;
         const double w = (i % INTEGRAL_STEPS + 0.5) / INTEGRAL_STEPS;
-        add_lobe(view, fmax(roughness * roughness, 1e-4), u, w, &tables->a[r][v], &tables->b[r][v]);
+        add_lobe(view, fmax(roughness * roughness, 1e-4), u, w, &tables.a[r][v], &tables.b[r][v]);
         if (r == 0) {
             const double light[3] = {sqrt(w) * cos(2.0 * pi * u), sqrt(w) * sin(2.0 * pi * u),
                                      sqrt(1.0 - w)};
             const double v_h = sqrt(0.5 * (1.0 + dot(view, light)));
-            tables->grazing[v] += pow(1.0 - v_h, 5.0) / count;
+            tables.grazing[v] += pow(1.0 - v_h, 5.0) / count;
         }
     }
-    tables->a[r][v] /= count;
-    tables->b[r][v] /= count;
+    tables.a[r][v] /= count;
+    tables.b[r][v] /= count;
 }
 
-DipRefPbrTables *dip_reference_pbr_tables_create(void) {
-    DipRefPbrTables *tables = calloc(1, sizeof *tables);
-    for (int i = 0; tables && i < STEPS * STEPS; i++) {
-        fill_entry(tables, i / STEPS, i % STEPS);
+static void fill_tables(void) {
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        fill_entry(i / STEPS, i % STEPS);
     }
-    return tables;
+}
+
+void dip_reference_pbr_prepare(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, fill_tables);
 }
 
 // Reads between entries. fast: position on the axis whose entries follow each other.
@@ -127,10 +132,9 @@ static double facing_of(const Lobe *lobe) {
     return clamp01(dot(lobe->normal, lobe->to_eye));
 }
 
-static void read_lobe(const DipRefTriangle *triangle, Lobe *lobe) {
-    DipRefPbrTables *tables = triangle->pbr_tables;
-    lobe->a = interpolate(tables->a, lobe->roughness, facing_of(lobe));
-    lobe->b = interpolate(tables->b, lobe->roughness, facing_of(lobe));
+static void read_lobe(Lobe *lobe) {
+    lobe->a = interpolate(tables.a, lobe->roughness, facing_of(lobe));
+    lobe->b = interpolate(tables.b, lobe->roughness, facing_of(lobe));
 }
 
 // The radiance that a lobe sees. environment: NULL for the surroundings of the lighting.
@@ -309,9 +313,8 @@ static void add_light(const Surface *surface, const Lobe *lobe, int index, doubl
 }
 
 static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3]) {
-    const DipRefPbrTables *tables = surface->triangle->pbr_tables;
     const double rest = 1.0 - surface->metallic;
-    const double grazing = interpolate_row(tables->grazing, facing_of(lobe));
+    const double grazing = interpolate_row(tables.grazing, facing_of(lobe));
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * grazing);
@@ -347,7 +350,7 @@ static void add_coat(const Surface *surface, const double normal[3], const doubl
         lobe.to_eye[i] = to_eye[i];
     }
     lobe.light_alpha = fmax(0.1, lobe.roughness * lobe.roughness);
-    read_lobe(surface->triangle, &lobe);
+    read_lobe(&lobe);
     const double gain = 1.0 + 0.04 * (1.0 / (lobe.a + lobe.b) - 1.0);
     const double below = 1.0 - pbr->coat * (0.04 + 0.96 * pow(1.0 - facing_of(&lobe), 5.0));
     double seen[3];
@@ -425,7 +428,7 @@ static void begin_surface(const DipRefTriangle *triangle, const DipRefFilter *fi
     const double least = fmax(0.1, alpha);
     lobe->light_alpha = sqrt(fmin(1.0, least * least + spread));
     lobe->roughness = pow(fmin(1.0, alpha * alpha + spread), 0.25);
-    read_lobe(triangle, lobe);
+    read_lobe(lobe);
 }
 
 void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,

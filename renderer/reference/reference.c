@@ -111,14 +111,12 @@ bool dip_reference_stopped(const DipReference *reference, DipError *err) {
 }
 
 static bool load_pbr(DipReference *reference, const DipPbrDef *pbr, DipError *err) {
-    if (!reference->pbr_tables) {
-        reference->pbr_tables = dip_reference_pbr_tables_create();
-    }
+    dip_reference_pbr_prepare();
     const DipEnvironmentDef *surroundings = reference->def->environment;
     if (surroundings && !reference->environment) {
         reference->environment = dip_reference_environment_create(surroundings);
     }
-    if (!reference->pbr_tables || (surroundings && !reference->environment)) {
+    if (surroundings && !reference->environment) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for the reference");
     }
     return load_texture(reference, pbr->metal_rough_map, err) &&
@@ -215,7 +213,6 @@ void dip_reference_destroy(DipReference **reference) {
     }
     free((*reference)->patches);
     free((*reference)->textures);
-    free((*reference)->pbr_tables);
     dip_reference_environment_destroy(&(*reference)->environment);
     dip_reference_shadows_destroy(&(*reference)->shadows);
     dip_posed_def_destroy(&(*reference)->posed);

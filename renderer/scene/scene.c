@@ -36,8 +36,8 @@ static float *interleave(const DipVertexLayout *layout, uint32_t vertex_count) {
 static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) {
     DipSceneMesh *mesh = &scene->meshes[index];
     DipPbrUniforms *surface = &scene->pbr->surfaces[index];
-    *surface = dip_pbr_surface(def, &def->meshes[index], &scene->pbr->tables, mesh->uv_varyings[0],
-                               mesh->uv_varyings[1]);
+    *surface =
+        dip_pbr_surface(def, &def->meshes[index], mesh->uv_varyings[0], mesh->uv_varyings[1]);
     surface->environment = scene->pbr->environment;
     dip_pbr_add_sheen(def->materials[def->meshes[index].material].pbr,
                       scene->pbr->sheens ? &scene->pbr->sheens[index] : NULL, surface);

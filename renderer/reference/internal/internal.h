@@ -10,7 +10,6 @@
 
 // Tables of the light that metallic-roughness surfaces reflect.
 typedef struct DipRefEnvironment DipRefEnvironment;
-typedef struct DipRefPbrTables DipRefPbrTables;
 
 // The surfaces that cast shadows, and the light whose shadows they cast.
 typedef struct DipRefShadows DipRefShadows;
@@ -28,10 +27,10 @@ struct DipReference {
     // Textures, with the same indices as in the description. A texture that no surface shows has no
     // levels.
     DipRefTexture *textures;
-    DipRefPbrTables *pbr_tables;    // owned; NULL if no material has a metallic-roughness surface
-    DipRefEnvironment *environment; // owned; NULL if pbr_tables is, or without an environment
-    DipRefShadows *shadows;         // owned; NULL if the scene can have no shadows
-    bool lacks_shadows;             // no memory was left for the shadows of this time
+    // Owned. NULL without an environment, or if no material has a metallic-roughness surface.
+    DipRefEnvironment *environment;
+    DipRefShadows *shadows; // owned; NULL if the scene can have no shadows
+    bool lacks_shadows;     // no memory was left for the shadows of this time
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with
@@ -94,7 +93,6 @@ typedef struct DipRefTriangle {
     double repeat[2]; // u0 and v0 where they repeat: the multiple of 64 nearest to the eye's corner
     DipRefLit lit;
     const DipPbrDef *pbr; // NULL unless the surface is drawn by its metallic-roughness description
-    DipRefPbrTables *pbr_tables;
     const DipRefEnvironment *environment; // NULL: the surroundings of the lighting
     const DipRefTexture *metal_rough;     // maps of such a surface, or NULL
     const DipRefTexture *occlusion;
@@ -250,8 +248,9 @@ void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryi
 void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filter,
                              const DipRefVaryings *varyings, int coordinate, double texel[4]);
 
-// pbr.c: the tables, or NULL when memory runs out. The caller frees them with free().
-DipRefPbrTables *dip_reference_pbr_tables_create(void);
+// pbr.c: computes the tables that all references share, unless they are there. It must come before
+// metallic-roughness surfaces are drawn. Several threads may call it.
+void dip_reference_pbr_prepare(void);
 
 // environment.c: makes what surfaces see of an environment, which is borrowed. Returns NULL if
 // memory runs out. *environment may be NULL and becomes NULL.

@@ -31,8 +31,9 @@ typedef struct DipPbrSample {
 // Makes the points by which the lobe is integrated, with + - * / and sqrt alone.
 void dip_pbr_samples_make(DipPbrSample samples[DIP_PBR_SAMPLES]);
 
-// Computes the tables with + - * / and sqrt alone, so that they are the same on every machine.
-void dip_pbr_tables_make(DipPbrTables *tables);
+// Returns the tables, which all scenes share. They are computed by the first call, with + - * / and
+// sqrt alone, so that they are the same on every machine. Several threads may call this function.
+const DipPbrTables *dip_pbr_tables(void);
 
 // The sheen of cloth. All but its colour follows from its roughness.
 typedef struct DipSheen {

@@ -4,6 +4,7 @@
 #include "renderer/scene/materials/pbr.h"
 
 #include <math.h>
+#include <pthread.h>
 
 enum { SAMPLES = DIP_PBR_SAMPLES, SAMPLE_BITS = 8 };
 
@@ -138,19 +139,27 @@ DipSheen dip_sheen_make(const float lin[3], double roughness) {
                       .albedo_shift = (float)(shift * log2_e)};
 }
 
-void dip_pbr_tables_make(DipPbrTables *tables) {
+static DipPbrTables tables;
+
+static void make_tables(void) {
     DipPbrSample samples[SAMPLES];
     dip_pbr_samples_make(samples);
     for (int r = 0; r < DIP_PBR_TABLE; r++) {
         for (int v = 0; v < DIP_PBR_TABLE; v++) {
-            tables->lobe[r * DIP_PBR_TABLE + v] =
+            tables.lobe[r * DIP_PBR_TABLE + v] =
                 lobe_entry(samples, (r + 0.5) / DIP_PBR_TABLE, (v + 0.5) / DIP_PBR_TABLE);
         }
     }
     for (int v = DIP_PBR_TABLE - 1; v >= 0; v--) {
         const uint32_t own = grazing_entry(samples, (v + 0.5) / DIP_PBR_TABLE);
         const bool last = v == DIP_PBR_TABLE - 1;
-        const uint32_t next = last ? own : (uint32_t)tables->grazing[v + 1] & 0xffff;
-        tables->grazing[v] = pack(own, next);
+        const uint32_t next = last ? own : (uint32_t)tables.grazing[v + 1] & 0xffff;
+        tables.grazing[v] = pack(own, next);
     }
+}
+
+const DipPbrTables *dip_pbr_tables(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_tables);
+    return &tables;
 }

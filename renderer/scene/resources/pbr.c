@@ -1,4 +1,4 @@
-// Keeps what metallic-roughness surfaces need: tables, and the numbers of each surface.
+// Keeps what metallic-roughness surfaces need for a scene, and the numbers of each surface.
 #include "renderer/scene/resources/pbr.h"
 
 #include "renderer/scene/materials/surface.h"
@@ -57,7 +57,6 @@ bool dip_scene_pbr_create(const DipSceneDef *def, DipPool *pool, DipScenePbr **o
         dip_scene_pbr_destroy(&pbr);
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "out of memory");
     }
-    dip_pbr_tables_make(&pbr->tables);
     *out = pbr;
     return true;
 }
@@ -103,12 +102,11 @@ bool dip_pbr_uses_set(const DipMaterialDef *material, int set) {
            (shows_emission(pbr) && pbr->emission_at_uv1 == (set == 1));
 }
 
-DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
-                               const DipPbrTables *tables, int uv0, int uv1) {
+DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh, int uv0, int uv1) {
     const DipMaterialDef *material = &def->materials[mesh->material];
     const DipPbrDef *pbr = material->pbr;
     DipPbrUniforms surface = {
-        .tables = tables,
+        .tables = dip_pbr_tables(),
         .metallic = pbr->metallic,
         .roughness = pbr->roughness,
         .f90 = pbr->f90,

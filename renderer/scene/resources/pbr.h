@@ -11,7 +11,6 @@
 
 // Exists only in scenes that have a metallic-roughness surface.
 typedef struct DipScenePbr {
-    DipPbrTables tables;
     DipSceneLighting *fixed; // the fixed light, in a scene without lights of its own; or NULL
     DipEnvironmentMap *environment; // NULL: the surroundings of the lighting
     DipSheen *sheens; // one per mesh; those of meshes without sheen are not used. NULL: none has it
@@ -29,8 +28,7 @@ void dip_scene_pbr_destroy(DipScenePbr **pbr);
 
 // Describes the surface of a mesh. uv0 and uv1: index of the first varying of each set of texture
 // coordinates, or DIP_ABSENT.
-DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh,
-                               const DipPbrTables *tables, int uv0, int uv1);
+DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh, int uv0, int uv1);
 
 // Returns the transmission of a material: 0 unless it is blended.
 static inline float dip_pbr_transmission(const DipMaterialDef *material) {
