@@ -1,11 +1,10 @@
 #!/bin/sh
-# Installs a build into a new folder and checks its headers. Each must compile alone, in C and in
-# C++, and include only system headers and <diptych/...>. Whatever a header declares must be
-# exported by a shared library.
+# Checks the headers of an installed copy. Each must compile alone, in C and in C++, and include only
+# system headers and <diptych/...>. Whatever a header declares must be exported by a shared library.
 #
-# Usage: check_headers.sh SOURCE_DIR BUILD_DIR COMPILER CXX_COMPILER
+# Usage: check_headers.sh SOURCE_DIR COPY_DIR COMPILER CXX_COMPILER
 set -eu
-source=$1 build=$2 compiler=$3 cxx=$4
+source=$1 copy=$2 compiler=$3 cxx=$4
 . "$source/tests/install/installed.sh"
 include=$prefix/include
 

@@ -1,13 +1,12 @@
 #!/bin/sh
-# Installs a build into a new folder and uses the installed copy from outside this tree. The
-# installed program must draw. The installed examples, the program in docs/pipeline.md and a program
-# in C++ must build by the documented commands, linked dynamically and statically, and every link of
-# an installed page must lead to a file.
+# Uses an installed copy from outside this tree. The installed program must draw. The installed
+# examples, the program in docs/pipeline.md and a program in C++ must build by the documented
+# commands, linked dynamically and statically, and every link of an installed page must lead to a
+# file.
 #
-# Usage: check_install.sh SOURCE_DIR BUILD_DIR COMPILER CXX_COMPILER
-# BUILD_DIR may be an installed copy instead.
+# Usage: check_install.sh SOURCE_DIR COPY_DIR COMPILER CXX_COMPILER
 set -eu
-source=$1 build=$2 compiler=$3 cxx=$4
+source=$1 copy=$2 compiler=$3 cxx=$4
 . "$source/tests/install/installed.sh"
 examples=$prefix/share/doc/diptych/renderer/example
 warnings="-Wall -Wextra -Wpedantic -Werror"

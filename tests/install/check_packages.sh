@@ -8,7 +8,6 @@ set -eu
 source=$1 build=$2
 command -v dpkg-shlibdeps >/dev/null && command -v dpkg-deb >/dev/null && command -v file >/dev/null ||
     { echo "skipped: no dpkg-shlibdeps, no dpkg-deb or no file (Debian: dpkg-dev, file)"; exit 77; }
-packed=yes # Nothing needs to be installed.
 . "$source/tests/install/installed.sh"
 
 rm -f "$build"/diptych-*.zip "$build"/diptych_*.deb

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Installs a build into a new folder and draws with it from Python by the documented command. The
-# test is skipped (exit code 77) if no Python has cffi.
+# Draws with an installed copy from Python by the documented command. The test is skipped (exit code
+# 77) if no Python has cffi.
 #
-# Usage: check_python.sh SOURCE_DIR BUILD_DIR
+# Usage: check_python.sh SOURCE_DIR COPY_DIR
 set -eu
-source=$1 build=$2
+source=$1 copy=$2
 interpreter=
 for python in python3 /usr/bin/python3; do
     ! "$python" -c 'import cffi' 2>/dev/null || interpreter=$(command -v "$python")

@@ -1,11 +1,10 @@
-# Installs a build into a new folder. The tests of this folder source this file, with the variables
-# source and build. Then $prefix is the installed copy and $folder a folder for the test's files. If
-# build is no build but an installed copy, it serves as it is. With the variable packed, nothing is
-# installed and $prefix is empty.
+# What the tests of this folder share. They source this file, with the variable source, and with copy
+# if they test an installed copy, or with build. Then $folder is a folder for the test's files, and
+# $prefix is the copy, or the folder into which the documented command installs the build.
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-prefix=$folder/prefix
+prefix=${copy:-$folder/prefix}
 
 fail() {
     echo "$*"
@@ -24,17 +23,5 @@ documented() {
     line=$(grep -F -- "$2" "$source/docs/$1" | grep "^$2" | head -1)
     [ -n "$line" ] || fail "docs/$1 has no line that begins with: $2"
     echo "$line" >>"$folder/documented"
-    echo "$line" | sed "s|build/release|$build|g; s|\<DIR\>|$prefix|g"
+    echo "$line" | sed "s|build/release|${build:-}|g; s|\<DIR\>|$prefix|g"
 }
-
-if [ -n "${packed:-}" ]; then
-    prefix=
-elif [ -f "$build/CMakeCache.txt" ]; then
-    # The files move after they are installed: nothing in them may name the folder.
-    command=$(documented install.md 'cmake --install')
-    run_quietly "the build cannot be installed" sh -c "$command"
-    mv "$prefix" "$folder/moved"
-    prefix=$folder/moved
-else
-    prefix=$build
-fi

@@ -1,0 +1,13 @@
+#!/bin/sh
+# Installs a build by the documented command. The files move after they are installed: nothing in
+# them may name the folder. The other tests of this folder use the copy.
+#
+# Usage: check_installing.sh SOURCE_DIR BUILD_DIR COPY_DIR
+set -eu
+source=$1 build=$2 to=$3
+. "$source/tests/install/installed.sh"
+
+command=$(documented install.md 'cmake --install')
+run_quietly "the build cannot be installed" sh -c "$command"
+rm -rf "$to"
+mv "$prefix" "$to"
