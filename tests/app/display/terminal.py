@@ -21,7 +21,9 @@ PROGRAM = os.path.abspath(sys.argv[1])
 ENTER = b"\x1b[?1049h"
 LEAVE = (b"\x1b[?2026l", b"\x1b[?1006l", b"\x1b[?1002l", b"\x1b[?1000l", b"\x1b[0m", b"\x1b[?7h",
          b"\x1b[?25h", b"\x1b[?1049l")
-SETTINGS = ["--display", "terminal", "--current", "aa=none", "--requested", "aa=4"]
+# What the terminal gets back does not depend on the scene. This one loads quickly.
+MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../assets/data/square.gltf")
+SETTINGS = ["--display", "terminal", "--current", "aa=none", "--requested", "aa=4", "--model", MODEL]
 
 
 PART = re.compile(r"\x1b\[([<-?]?)([0-9;]*)([@-~])|(.)", re.DOTALL)
