@@ -4,6 +4,7 @@
 #include "renderer/base/fp_mode.h"
 
 #include <math.h>
+#include <string.h>
 
 // Returns x^(1/5) for 0 < x <= 1.2, by Newton's method. The iteration starts above the root and
 // falls monotonically to the root.
@@ -47,16 +48,20 @@ void dip_srgb_decode_table(DipSrgbDecodeTable *table) {
 void dip_srgb_encode_table(DipSrgbEncodeTable *table) {
     DIP_FP_MODE_SCOPE();
     // Entry i belongs to the linear light i / 65535. The first entry with code c is the first whose
-    // light is at least the light of the sRGB value (c - 1/2) / 255.
-    int code = 0;
-    double end = decode(0.5 / 255.0);
-    for (int i = 0; i <= DIP_LINEAR16_MAX; i++) {
-        while (code < 255 && i / (double)DIP_LINEAR16_MAX >= end) {
-            code++;
-            end = decode((code + 0.5) / 255.0);
+    // light is at least the light of the sRGB value (c - 1/2) / 255. It is looked for from just
+    // below that light on.
+    int first = 0;
+    for (int code = 0; code < 255; code++) {
+        const double end = decode((code + 0.5) / 255.0);
+        int next = (int)(end * DIP_LINEAR16_MAX) - 1;
+        next = next < first ? first : next;
+        while (next / (double)DIP_LINEAR16_MAX < end) {
+            next++;
         }
-        table->code[i] = (uint8_t)code;
+        memset(table->code + first, code, (size_t)(next - first));
+        first = next;
     }
+    memset(table->code + first, 255, (size_t)(DIP_LINEAR16_MAX + 1 - first));
     for (int i = 1; i <= 3; i++) {
         table->code[DIP_LINEAR16_MAX + i] = 255;
     }
