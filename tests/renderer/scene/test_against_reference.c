@@ -226,23 +226,46 @@ static bool matches(Pair *pair, DipTestSceneKind kind, const char *settings, int
 // The half of the pictures to compare, 0 or 1; -1 compares all.
 static int half = -1;
 
+enum { SIZES = sizeof sizes / sizeof *sizes };
+
+// The scenes that check_all has drawn so far. A scene is opened once, since compressing its
+// textures takes as long as several pictures.
+static Pair opened[SIZES][DIP_TEST_SCENE_COUNT];
+
+static Pair *pair_of(int size, DipTestSceneKind kind) {
+    Pair *pair = &opened[size][kind];
+    if (!pair->renderer) {
+        open_pair(pair, kind, sizes[size][0], sizes[size][1]);
+    }
+    return pair;
+}
+
+static int close_all(void **state) {
+    (void)state;
+    for (int i = 0; i < SIZES * DIP_TEST_SCENE_COUNT; i++) {
+        Pair *pair = &opened[i / DIP_TEST_SCENE_COUNT][i % DIP_TEST_SCENE_COUNT];
+        if (pair->renderer) {
+            close_pair(pair);
+        }
+    }
+    return 0;
+}
+
 // Compares pictures with all settings of the list in all scenes and sizes, in the first frame_count
 // frames of each. Of two successive settings, scenes or sizes one belongs to each half. Reports all
 // failures before the test fails.
 static void check_all(const char *const *settings, size_t count, int frame_count) {
     int missed = 0;
-    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+    for (int s = 0; s < SIZES; s++) {
         for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
-            Pair pair;
-            open_pair(&pair, (DipTestSceneKind)kind, sizes[s][0], sizes[s][1]);
+            Pair *pair = pair_of(s, (DipTestSceneKind)kind);
             for (size_t i = 0; i < count * (size_t)frame_count; i++) {
-                if ((int)(s + (size_t)kind + i % count) % 2 == 1 - half) {
+                if ((s + kind + (int)(i % count)) % 2 == 1 - half) {
                     continue;
                 }
                 missed +=
-                    !matches(&pair, (DipTestSceneKind)kind, settings[i % count], (int)(i / count));
+                    !matches(pair, (DipTestSceneKind)kind, settings[i % count], (int)(i / count));
             }
-            close_pair(&pair);
         }
     }
     assert_int_equal(missed, 0);
@@ -490,5 +513,5 @@ int main(int argc, char **argv) {
         cmocka_unit_test(texture_optimisation_matches_the_reference),
         cmocka_unit_test(the_greatest_cutoffs_match_the_reference),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, close_all);
 }
