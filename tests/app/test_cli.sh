@@ -168,10 +168,12 @@ check "the record on standard output has the same hash" grep -q "$(sed -n '1s/.*
 check "no file is called -" test ! -e ./-
 
 # --- standard output on a full disk: one line of error, exit code 1
+quick_scene="--model $source/tests/assets/data/square.gltf" # It loads quickly.
 full() { "$@" >/dev/full; }
 if [ -c /dev/full ]; then
-    for arguments in --help --version "dump --help" "dump $small --hash" "dump $small --json -" \
-        "path info $source/campaths/aa.pth" "bench --frames 1 --rounds 1 --size 8x8 --sets aa=none"; do
+    for arguments in --help --version "dump --help" "dump $small $quick_scene --hash" \
+        "dump $small $quick_scene --json -" "path info $source/campaths/aa.pth" \
+        "bench $quick_scene --frames 1 --rounds 1 --size 8x8 --sets aa=none"; do
         expect 1 'standard output cannot be written' full "$diptych" $arguments
     done
 fi
@@ -246,24 +248,24 @@ check "triangles out of view are not drawn" test "$(awk '$1 == "triangles_drawn"
 expect 0 '' "$diptych" bench $quick --size 32x24 --sets "aa=none;aa=2" --vs "$diptych" --csv vs.csv
 check "a comparison with itself finds the same pictures" test "$(grep -cE '^aa=.* same$' out.txt)" = 2
 check "the CSV has the rows of both programs" test "$(grep -c '^other,' vs.csv)" = 8
-expect 1 "\[--vs\] .*true has ended" "$diptych" bench $quick --vs /bin/true
-expect 1 "\[--vs\] .*echo did not answer as diptych's bench does" "$diptych" bench $quick --vs /bin/echo
-expect 1 'none/a.csv' "$diptych" bench $quick --size 8x8 --csv none/a.csv
+expect 1 "\[--vs\] .*true has ended" "$diptych" bench $quick $quick_scene --vs /bin/true
+expect 1 "\[--vs\] .*echo did not answer as diptych's bench does" "$diptych" bench $quick $quick_scene --vs /bin/echo
+expect 1 'none/a.csv' "$diptych" bench $quick $quick_scene --size 8x8 --csv none/a.csv
 printf 'draw 0 0 1\ndraw 9 0 0\n' >asked.txt
-serve() { "$diptych" bench $quick --size 32x24 --sets aa=none --serve <asked.txt; }
+serve() { "$diptych" bench $quick $quick_scene --size 32x24 --sets aa=none --serve <asked.txt; }
 expect 1 "\[--serve\] 'draw 9 0 0'" serve
 check "the child greets and answers" test "$(grep -cE '^diptych-bench 1 1 2$|total_ms=.*hash=[0-9a-f]{32}$' out.txt)" = 2
 
 # --- a model given on the command line, with an orbit made for it
-expect 0 '' "$diptych" dump $small --hash --model "$source/tests/assets/data/square.gltf"
+expect 0 '' "$diptych" dump $small --hash $quick_scene
 
 # --- failures at run time
-expect 1 'c.json/x' "$diptych" dump $small --json c.json/x
-expect 1 '\[--out\] ' "$diptych" dump $small --out c.json
+expect 1 'c.json/x' "$diptych" dump $small $quick_scene --json c.json/x
+expect 1 '\[--out\] ' "$diptych" dump $small $quick_scene --out c.json
 
 # --- wrong input and failures at run time have different exit codes
 refuse 'none.json: ' --cost none.json
-expect 1 'none/x.png: |\[--out\] ' "$diptych" dump $small --out c.json/x
+expect 1 'none/x.png: |\[--out\] ' "$diptych" dump $small $quick_scene --out c.json/x
 
 # --- camera paths
 expect 0 '' "$diptych" path convert "$source/campaths/aa.pth" aa.bth
@@ -298,9 +300,9 @@ rm -rf x
 expect 0 '' "$diptych" cost --help
 check "help on cost gives examples" grep -q 'cost merge --out report' out.txt
 # The scene loads quickly. one_truth_of_fresh_reports measures the courtyard for budgets.
-few="--places 2 --samples 4 --timed 1 --cache truths --model $source/tests/assets/data/square.gltf"
+few="--places 2 --samples 4 --timed 1 --cache truths $quick_scene"
 # No set of settings draws a picture of this size within the smallest budget.
-expect 0 '' "$diptych" cost --size 192x144 $few --out whole --rounds 3 --combine aa --budget-ms 0.01,1000
+expect 0 '' "$diptych" cost --size 96x72 $few --out whole --rounds 3 --combine aa --budget-ms 0.01,1000
 check "the report is there" test -s whole/cost.html -a -s whole/cost.csv -a -s whole/cost.json
 check "the finished report leaves no cost.state" test ! -e whole/cost.state
 if grep -q '^No advice:$' out.txt; then
@@ -319,7 +321,7 @@ expect 0 '' $cost --out part1 --part 1:2 --errors-only --starts 1 --rounds 2 --c
 check "the page has no pictures" test "$(grep -c '<img' part1/cost.html)" = 0
 check "the truths of the part's viewpoints are saved" \
     test "$(ls pfm | sort | head -n 2 | tr '\n' ' ')" = 'DEFAULT-1-0.pfm DEFAULT-1-1.pfm '
-square="--cache truths --model $source/tests/assets/data/square.gltf"
+square="--cache truths $quick_scene"
 expect 0 '' "$diptych" cost merge --out merged $square part1/cost.json part0
 sums_of() {
     grep -oE '"(sums|half_against_half)":\[[^]]*\]' "$1/cost.json" | sort
@@ -379,7 +381,7 @@ check "reports with other truths are not compared" grep -q 'errors are not compa
 sed -E '0,/"sums":/s/("sums":\[[0-9.]+,)([0-9.]+)/\199\2/' one-thread/cost.json >worse.json
 expect 1 '\[--fail-over\] 0 rows are slower and 1 have a greater error in worse.json, by more than 3 %' \
     "$diptych" cost diff one-thread worse.json --fail-over 3%
-duel="--model $source/tests/assets/data/square.gltf --starts 2 --rounds 2"
+duel="$quick_scene --starts 2 --rounds 2"
 "$diptych" cost diff . "$diptych" $duel --size 32x24 --frames 2 --sets "aa=none;aa=4" >out.txt 2>err.txt
 check "two programs are compared, or the machine is busy" test $? = 0 -o $? = 3
 check "the same program draws the same pictures" grep -q 'All pictures and counters are the same' out.txt
