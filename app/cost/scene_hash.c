@@ -33,7 +33,8 @@ static void hash_pbr(const DipPbrDef *pbr, DipHash *hash) {
                            pbr->emission_map, pbr->emission_at_uv1};
     const float shares[] = {pbr->metallic,           pbr->roughness,       pbr->f90,
                             pbr->occlusion_strength, pbr->normal_scale,    pbr->coat,
-                            pbr->coat_roughness,     pbr->sheen_roughness, pbr->transmission};
+                            pbr->coat_roughness,     pbr->sheen_roughness, pbr->transmission,
+                            pbr->scattering};
     hash_integers(hash, indices, DIP_ARRAY_COUNT(indices));
     hash_floats(hash, shares, DIP_ARRAY_COUNT(shares));
     hash_floats(hash, pbr->f0_lin, 3);

@@ -77,6 +77,7 @@ typedef struct Work {
     X("fragment with a clear coat", C(fragments_coated))                                           \
     X("fragment with a sheen", C(fragments_sheen))                                                 \
     X("fragment that lets light through", C(fragments_transmitting))                               \
+    X("fragment of rough glass", C(fragments_scattering))                                          \
     X("fragment that sees an environment", C(fragments_surrounded))                                \
     X("fragment blended", C(fragments_blended))                                                    \
     X("fragment that reads the shadow map", C(fragments_shadowed))                                 \
@@ -99,6 +100,7 @@ typedef struct Work {
     X("byte of a picture that is averaged", C(target_bytes) * w->scaled)                           \
     X("pixel averaged from parts of pixels",                                                       \
       C(target_bytes) / (4.0 * w->scale * w->scale) * w->fraction)                                 \
+    X("texel of what lies behind rough glass", C(backdrop_texels))                                 \
     X("texel of the shadow map", C(shadow_texels))
 
 #define REST_TERMS(X)                                                                              \

@@ -149,8 +149,9 @@ static bool read_metallic(const DipGltf *gltf, const cJSON *json, DipGltfMateria
            read_texture(gltf, shading, "metallicRoughnessTexture", &material->metal_rough);
 }
 
-// Computes f0 and f90 from KHR_materials_ior and KHR_materials_specular. An ior of 0 stands for
-// infinity.
+// Computes f0, f90 and the scattering from KHR_materials_ior and KHR_materials_specular. An ior of
+// 0 stands for infinity. What is transmitted without refraction, with an ior of 1, is not
+// scattered.
 static bool read_specular(const DipGltf *gltf, const cJSON *json, DipGltfMaterial *material) {
     const cJSON *specular = dip_gltf_extension(json, "KHR_materials_specular");
     const double ior =
@@ -165,6 +166,7 @@ static bool read_specular(const DipGltf *gltf, const cJSON *json, DipGltfMateria
         material->f0[i] = strength * clamp(ratio * ratio * colour[i], 0.0, 1.0);
     }
     material->f90 = strength;
+    material->scattering = ior == 0.0 ? 1.0 : clamp(2.0 * ior - 2.0, 0.0, 1.0);
     return true;
 }
 

@@ -39,7 +39,8 @@ typedef struct DipGltfMaterial {
     double sheen[3]; // linear colour
     double sheen_roughness;
     double transmission;
-    double cutoff; // of DIP_GLTF_MASK
+    double scattering; // of what is transmitted: how much the roughness blurs it
+    double cutoff;     // of DIP_GLTF_MASK
     DipGltfAlpha alpha;
     bool double_sided;
     bool unlit;

@@ -247,6 +247,7 @@ static void read_surface(Maker *maker) {
         if (maker->plan.pbr) {
             def->opacity = from->alpha == DIP_GLTF_BLEND ? alpha : 1.0f;
             maker->plan.pbr->transmission = transmits(maker) ? (float)from->transmission : 0.0f;
+            maker->plan.pbr->scattering = transmits(maker) ? (float)from->scattering : 0.0f;
         } else {
             def->opacity = (float)opacity_of(from);
         }

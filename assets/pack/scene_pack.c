@@ -78,7 +78,8 @@ static bool read_pbr(const DipPackReader *reader, const PackPbr *record, DipPbrD
                        .coat = record->coat,
                        .coat_roughness = record->coat_roughness,
                        .sheen_roughness = record->sheen_roughness,
-                       .transmission = record->transmission};
+                       .transmission = record->transmission,
+                       .scattering = record->scattering};
     memcpy(def->sheen_lin, record->sheen_lin, sizeof def->sheen_lin);
     const float *sheen = record->sheen_lin;
     memcpy(def->f0_lin, record->f0_lin, sizeof def->f0_lin);
@@ -89,9 +90,9 @@ static bool read_pbr(const DipPackReader *reader, const PackPbr *record, DipPbrD
            within_unit(record->occlusion_strength) && within_unit(record->coat) &&
            within_unit(record->coat_roughness) && within_unit(sheen[0]) && within_unit(sheen[1]) &&
            within_unit(sheen[2]) && within_unit(record->sheen_roughness) &&
-           within_unit(record->transmission) && are_light(record->emission_lin) &&
-           isfinite(record->normal_scale) && record->maps_at_uv1 <= 3 &&
-           is_texture(reader, record->metal_rough_map) &&
+           within_unit(record->transmission) && within_unit(record->scattering) &&
+           are_light(record->emission_lin) && isfinite(record->normal_scale) &&
+           record->maps_at_uv1 <= 3 && is_texture(reader, record->metal_rough_map) &&
            is_texture(reader, record->occlusion_map) && is_texture(reader, record->emission_map);
 }
 

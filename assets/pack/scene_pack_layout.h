@@ -93,7 +93,7 @@ typedef struct PackPbr {
     float sheen_lin[3];
     float sheen_roughness;
     float transmission;
-    uint32_t unused;
+    float scattering;
 } PackPbr;
 
 typedef struct PackMaterial {

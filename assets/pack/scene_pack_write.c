@@ -119,7 +119,8 @@ static PackPbr pbr_of(const DipPbrDef *def) {
                       .coat = def->coat,
                       .coat_roughness = def->coat_roughness,
                       .sheen_roughness = def->sheen_roughness,
-                      .transmission = def->transmission};
+                      .transmission = def->transmission,
+                      .scattering = def->scattering};
     memcpy(record.sheen_lin, def->sheen_lin, sizeof record.sheen_lin);
     memcpy(record.f0_lin, def->f0_lin, sizeof record.f0_lin);
     memcpy(record.emission_lin, def->emission_lin, sizeof record.emission_lin);

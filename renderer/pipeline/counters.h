@@ -38,7 +38,7 @@ extern "C" {
     X(texels_fetched, "texels read for all probes, in both levels")                                \
     X(target_bytes, "bytes of colour written to targets")
 
-enum { DIP_SHADER_COUNT_MAX = 12 };
+enum { DIP_SHADER_COUNT_MAX = 16 };
 
 typedef struct DipPipelineCounters {
 #define DIP_COUNTER_FIELD(name, text) uint64_t name;

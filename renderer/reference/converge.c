@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NOTHING = -1 };
+// BACKDROP_SIDE: the samples of the backdrop have a grid of this many in each direction of a pixel.
+enum { NOTHING = -1, BACKDROP_SIDE = 4 };
 
 // A plane: one sample of every pixel.
 typedef struct Plane {
@@ -25,6 +26,7 @@ typedef struct Converging {
     DipRefTriangles triangles;
     Plane plane;
     const struct Converging *mirrored; // the mirrored scene at the same positions, or NULL
+    const DipRefBackdrop *backdrop;    // what rough glass shows blurred; NULL: it shows it sharp
     int width;
     int height;
 } Converging;
@@ -103,6 +105,9 @@ static void draw_in_pixel(Converging *c, int32_t index, size_t pixel) {
 static void draw_triangles(Converging *c, bool blended) {
     for (size_t t = 0; t < c->triangles.count; t++) {
         const DipRefTriangle *triangle = &c->triangles.items[t];
+        if (t % DIP_REF_STOP_PERIOD == 0 && dip_reference_stopped(c->reference, NULL)) {
+            return;
+        }
         if (triangle->blended != blended) {
             continue;
         }
@@ -128,7 +133,7 @@ static void shade_surface(const Converging *c, size_t pixel, const DipRefPositio
         dip_reference_blend_water(c->reference, c->pose, c->width, c->height, place, mirrored,
                                   rgba);
     }
-    dip_reference_see_through(place, NULL, rgba);
+    dip_reference_see_through(place, NULL, c->backdrop, rgba);
 }
 
 // Computes the colour of the plane's sample in a pixel, without blended surfaces.
@@ -228,6 +233,63 @@ static void finish(Converging *c) {
     free(c->plane.peels);
 }
 
+// Adds a sample of each pixel of what is not blended to the backdrop's picture.
+static void add_backdrop_plane(Converging *c, Converging *mirrored, int index, double *rgb_lin) {
+    if (mirrored) {
+        start_plane(mirrored, index, BACKDROP_SIDE, 0);
+        draw_plane(mirrored);
+    }
+    start_plane(c, index, BACKDROP_SIDE, 0);
+    draw_triangles(c, false);
+    for (size_t pixel = 0; pixel < (size_t)c->width * (size_t)c->height; pixel++) {
+        double rgb[3];
+        shade(c, pixel, rgb);
+        for (size_t i = 0; i < 3; i++) {
+            rgb_lin[3 * pixel + i] += rgb[i] / (BACKDROP_SIDE * BACKDROP_SIDE);
+        }
+    }
+}
+
+// Draws the backdrop of a view whose triangles have been built. mirrored: as in
+// dip_reference_converge, or NULL.
+static bool converge_backdrop(Converging *c, Converging *mirrored, DipRefBackdrop **backdrop,
+                              DipError *err) {
+    double *rgb_lin = calloc((size_t)c->width * (size_t)c->height * 3, sizeof *rgb_lin);
+    bool drawn = rgb_lin != NULL;
+    for (int s = 0; drawn && s < BACKDROP_SIDE * BACKDROP_SIDE; s++) {
+        add_backdrop_plane(c, mirrored, s, rgb_lin);
+        if (dip_reference_stopped(c->reference, err)) {
+            free(rgb_lin);
+            return false;
+        }
+    }
+    *backdrop = drawn ? dip_reference_backdrop_create(rgb_lin, c->width, c->height) : NULL;
+    free(rgb_lin);
+    return *backdrop ||
+           dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for rough glass");
+}
+
+bool dip_reference_converge_backdrop(const DipReference *reference, const DipPose *pose, int width,
+                                     int height, DipRefBackdrop **backdrop, DipError *err) {
+    DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
+    Converging mirrored = {.reference = reference, .pose = pose, .width = width, .height = height};
+    Converging c = mirrored;
+    *backdrop = NULL;
+    bool drawn = dip_reference_build_triangles(reference, &shot, &c.triangles, err);
+    if (drawn && c.triangles.has_scattering) {
+        drawn = make_plane(&c, err);
+        if (drawn && c.triangles.has_water && dip_reference_reflects(reference, pose)) {
+            shot.mirrored = true;
+            c.mirrored = &mirrored;
+            drawn = start(&mirrored, &shot, err);
+        }
+        drawn = drawn && converge_backdrop(&c, c.mirrored ? &mirrored : NULL, backdrop, err);
+    }
+    finish(&c);
+    finish(&mirrored);
+    return drawn;
+}
+
 bool dip_reference_converge(const DipReference *reference, const DipPose *pose, int width,
                             int height, int sample_count, uint32_t seed, double *rgb_lin,
                             DipError *err) {
@@ -242,7 +304,11 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
     DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
     Converging mirrored = {.reference = reference, .pose = pose, .width = width, .height = height};
     Converging c = mirrored;
-    bool converged = start(&c, &shot, err);
+    DipRefBackdrop *backdrop = NULL;
+    bool converged =
+        dip_reference_converge_backdrop(reference, pose, width, height, &backdrop, err) &&
+        start(&c, &shot, err);
+    c.backdrop = backdrop;
     if (converged && dip_reference_reflects(reference, pose)) {
         shot.mirrored = true;
         c.mirrored = &mirrored;
@@ -262,5 +328,6 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
     }
     finish(&c);
     finish(&mirrored);
+    dip_reference_backdrop_destroy(&backdrop);
     return converged;
 }

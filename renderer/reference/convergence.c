@@ -24,6 +24,7 @@ struct DipConvergence {
     const DipReference *reference;
     DipPose pose;
     DipConvergence *mirrored; // the same frame of the mirrored scene, which water shows; or NULL
+    DipRefBackdrop *backdrop; // what rough glass shows blurred; NULL: it shows it sharp
     DipRefTriangles triangles;
     Bins bins;
     int width;
@@ -127,6 +128,10 @@ DipConvergence *dip_convergence_create(const DipReference *reference, const DipP
     }
     DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
     DipConvergence *c = create(reference, &shot, err);
+    if (c && c->triangles.has_scattering &&
+        !dip_reference_converge_backdrop(reference, pose, width, height, &c->backdrop, err)) {
+        dip_convergence_destroy(&c);
+    }
     if (c && dip_reference_reflects(reference, pose)) {
         shot.mirrored = true;
         c->mirrored = create(reference, &shot, err);
@@ -142,6 +147,7 @@ void dip_convergence_destroy(DipConvergence **convergence) {
         return;
     }
     dip_convergence_destroy(&(*convergence)->mirrored);
+    dip_reference_backdrop_destroy(&(*convergence)->backdrop);
     dip_reference_triangles_free(&(*convergence)->triangles);
     free((*convergence)->bins.first);
     free((*convergence)->bins.items);
@@ -339,7 +345,7 @@ static void shade_surface(const Samples *samples, size_t i, const DipRefPosition
         dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, place, mirrored,
                                   rgba);
     }
-    dip_reference_see_through(place, NULL, rgba);
+    dip_reference_see_through(place, NULL, c->backdrop, rgba);
 }
 
 // Shades what is not blended.

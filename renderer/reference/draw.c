@@ -50,8 +50,10 @@ typedef struct Drawing {
     DipRefShot shot;
     int width;
     int height;
-    int mirrored_size[2];   // width and height of the picture of the mirrored scene
-    const double *mirrored; // picture of the mirrored scene; NULL if water does not reflect
+    int mirrored_size[2];           // width and height of the picture of the mirrored scene
+    const double *mirrored;         // picture of the mirrored scene; NULL if water does not reflect
+    bool without_blended;           // blended surfaces are left out
+    const DipRefBackdrop *backdrop; // what rough glass shows blurred; NULL: it shows it sharp
 } Drawing;
 
 // Sets the filters of a picture that has several sample groups or only one.
@@ -217,7 +219,7 @@ static void draw_in_pixel(Drawing *drawing, int32_t index, int x, int y) {
         mask = clip_samples(drawing, triangle, x, y, mask);
     }
     if (triangle->blended) {
-        if (mask) {
+        if (mask && !drawing->without_blended) {
             add_layer(drawing, index, x, y, mask);
         }
         return;
@@ -263,7 +265,7 @@ static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigne
         dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
                                   drawing->height, &place, mirrored, rgba);
     }
-    dip_reference_see_through(&place, filter_of(drawing, triangle), rgba);
+    dip_reference_see_through(&place, filter_of(drawing, triangle), drawing->backdrop, rgba);
 }
 
 static bool same_patch(const Drawing *drawing, int32_t a, int32_t b) {
@@ -398,7 +400,7 @@ static bool out_of_layers(DipError *err) {
 
 static bool make_layers(Drawing *drawing, DipError *err) {
     drawing->layers = (Layers){.complete = true};
-    if (drawing->triangles.has_blended) {
+    if (drawing->triangles.has_blended && !drawing->without_blended) {
         const size_t pixels = (size_t)drawing->width * (size_t)drawing->height;
         drawing->layers.first = calloc(pixels, sizeof *drawing->layers.first);
         return drawing->layers.first || out_of_layers(err);
@@ -458,6 +460,22 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     return rgb_lin;
 }
 
+// Draws what rough glass shows blurred: the picture without blended surfaces. rgb_lin is scratch
+// space for it. Returns NULL on failure.
+static DipRefBackdrop *draw_backdrop(const Drawing *drawing, double *rgb_lin, DipError *err) {
+    Drawing behind = *drawing;
+    behind.without_blended = true;
+    if (!draw_built(&behind, rgb_lin, err)) {
+        return NULL;
+    }
+    DipRefBackdrop *backdrop =
+        dip_reference_backdrop_create(rgb_lin, drawing->width, drawing->height);
+    if (!backdrop) {
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory for rough glass");
+    }
+    return backdrop;
+}
+
 // Draws the picture of a view in any number of pixels. aspect: width / height of the view.
 static bool draw_picture(const DipReference *reference, const DipQuality *quality,
                          const DipPose *pose, double aspect, int width, int height, double *rgb_lin,
@@ -487,8 +505,15 @@ static bool draw_picture(const DipReference *reference, const DipQuality *qualit
         drawing.mirrored = mirrored;
         drawn = mirrored != NULL;
     }
+    DipRefBackdrop *backdrop = NULL;
+    if (drawn && drawing.triangles.has_scattering) {
+        backdrop = draw_backdrop(&drawing, rgb_lin, err);
+        drawing.backdrop = backdrop;
+        drawn = backdrop != NULL;
+    }
     drawn = drawn && draw_built(&drawing, rgb_lin, err);
     dip_reference_triangles_free(&drawing.triangles);
+    dip_reference_backdrop_destroy(&backdrop);
     free(mirrored);
     return drawn;
 }

@@ -245,6 +245,7 @@ static bool append(DipRefTriangles *triangles, const DipRefTriangle *triangle) {
     triangles->items[triangles->count++] = *triangle;
     triangles->has_blended = triangles->has_blended || triangle->blended;
     triangles->has_water = triangles->has_water || triangle->water;
+    triangles->has_scattering = triangles->has_scattering || dip_reference_scatters(triangle);
     return true;
 }
 

@@ -200,6 +200,7 @@ typedef struct Surface {
     double place[3];
     double base[3];
     double metallic;
+    double roughness; // without the spread of the normal map
     double occlusion;
     double f0_greatest;  // of what is not metal
     double f90;          // of what is not metal
@@ -412,7 +413,8 @@ static void begin_surface(const DipRefTriangle *triangle, const DipRefFilter *fi
                           const double base[3], Surface *surface, Lobe *lobe, double mesh[3]) {
     const DipPbrDef *pbr = triangle->pbr;
     *surface = (Surface){.triangle = triangle, .lighting = lighting_of(triangle)};
-    *lobe = (Lobe){.roughness = read_maps(filter, varyings, surface)};
+    surface->roughness = read_maps(filter, varyings, surface);
+    *lobe = (Lobe){.roughness = surface->roughness};
     const double length = find_normals(triangle, varyings, texel, mesh, lobe->normal);
     for (int i = 0; i < 3; i++) {
         surface->place[i] = varyings->value[DIP_REF_X + i];
@@ -445,9 +447,9 @@ void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter 
     }
 }
 
-void dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
-                                const DipRefVaryings *varyings, const double texel[3],
-                                const double base[3], double through[3]) {
+double dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                                  const DipRefVaryings *varyings, const double texel[3],
+                                  const double base[3], double through[3]) {
     Surface surface;
     Lobe lobe;
     double mesh[3];
@@ -461,4 +463,5 @@ void dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilt
         const double kept = clamp01(1.0 - (f0 * lobe.a + f90 * lobe.b));
         through[c] = rest * surface.transmission * base[c] * kept * coat;
     }
+    return surface.roughness;
 }

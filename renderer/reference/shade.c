@@ -179,8 +179,13 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
     }
 }
 
+bool dip_reference_scatters(const DipRefTriangle *triangle) {
+    const DipPbrDef *pbr = triangle->blended ? triangle->pbr : NULL;
+    return pbr && pbr->transmission > 0.0f && pbr->roughness * pbr->scattering > 0.1f;
+}
+
 void dip_reference_see_through(const DipRefPosition *place, const DipRefFilter *filter,
-                               double layer[DIP_REF_LAYER]) {
+                               const DipRefBackdrop *backdrop, double layer[DIP_REF_LAYER]) {
     const DipRefTriangle *triangle = place->triangle;
     for (int c = 0; c < 3; c++) {
         layer[4 + c] = 1.0 - layer[3];
@@ -204,8 +209,17 @@ void dip_reference_see_through(const DipRefPosition *place, const DipRefFilter *
         const double base = mip_colours ? 1.0 : triangle->material->base_colour_lin[c];
         colour[c] *= base * varyings.value[DIP_REF_RED + c];
     }
-    dip_reference_transmit_pbr(triangle, filter, &varyings, triangle->normal_map ? texel : NULL,
-                               colour, through);
+    const double roughness = dip_reference_transmit_pbr(
+        triangle, filter, &varyings, triangle->normal_map ? texel : NULL, colour, through);
+    if (backdrop && dip_reference_scatters(triangle)) {
+        double behind[3];
+        dip_reference_backdrop_read(backdrop, place, roughness * (double)triangle->pbr->scattering,
+                                    behind);
+        for (int c = 0; c < 3; c++) {
+            layer[c] = fmin(layer[c] + through[c] * behind[c], 1.0);
+        }
+        return;
+    }
     for (int c = 0; c < 3; c++) {
         layer[4 + c] += layer[3] * through[c];
     }

@@ -28,11 +28,15 @@ enum { DIP_MAX_FRAME_SIZE = DIP_MAX_TARGET_SIZE }; // largest width and height, 
     X(fragments_surrounded, "fragments of such surfaces that see an environment")                  \
     X(fragments_sheen, "fragments of such surfaces with a sheen")                                  \
     X(fragments_transmitting, "fragments of such surfaces that let light through")                 \
+    X(fragments_scattering, "fragments of such surfaces that blur what they let through")          \
     X(fragments_blended, "fragments of blended surfaces")                                          \
     X(fragments_shadowed, "fragments that read the shadow map")                                    \
     X(fragments_sky, "fragments of sky with moving clouds")                                        \
     X(fragments_reflecting, "fragments of water that show the reflection")                         \
     X(fragments_mirrored, "fragments shaded to draw the mirrored scene")                           \
+    X(fragments_behind, "fragments shaded to draw what lies behind rough glass")                   \
+    X(backdrop_texels, "texels of what lies behind rough glass, in all its levels")                \
+    X(backdrop_bytes, "bytes of the picture of what lies behind rough glass, and of its levels")   \
     X(shadow_texels, "texels of the shadow map that was drawn")                                    \
     X(shadow_bytes, "bytes of the shadow map")                                                     \
     X(reflection_bytes, "bytes of the mirrored scene's picture")                                   \
@@ -75,6 +79,7 @@ typedef struct DipCounters {
     X(coat, "clear coats")                                                                         \
     X(sheen, "sheens")                                                                             \
     X(transmission, "transmission")                                                                \
+    X(scattering, "rough glass")                                                                   \
     X(environment, "environment")                                                                  \
     X(blend, "blending")                                                                           \
     X(sky, "clouds")                                                                               \
@@ -103,8 +108,9 @@ typedef struct DipFrameTiles {
     const uint8_t *mixed;         // DipTileRecording.mixed, width * height bytes
     int across;
     int down;
-    // The work and the times of drawing the mirrored scene and the shadow map, with their geometry.
-    // These are pictures of their own, so their tiles are not those of the frame.
+    // The work and the times of drawing the mirrored scene, the shadow map and the backdrop of
+    // rough glass, with their geometry. These are pictures of their own, so their tiles are not
+    // those of the frame.
     DipPipelineCounters mirrored;
     DipStageTimes mirrored_times;
 } DipFrameTiles;

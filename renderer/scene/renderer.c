@@ -164,6 +164,7 @@ static void forget_scene(DipRenderer *renderer) {
     dip_draw_set_free(&renderer->set);
     free_mirror(&renderer->mirror);
     dip_shadows_free(&renderer->shadows);
+    dip_backdrop_free(&renderer->backdrop);
     free(renderer->samplers);
     renderer->samplers = NULL;
     dip_unshared_meshes_destroy(&renderer->unshared);
@@ -454,6 +455,20 @@ static bool follow_shadows(DipRenderer *renderer, const DipScene *scene, DipErro
     return made;
 }
 
+// Creates or frees the backdrop of rough glass, which has the size of what the main pass draws.
+static bool follow_backdrop(DipRenderer *renderer, const DipScene *scene, DipError *err) {
+    DipBackdropParts *backdrop = &renderer->backdrop;
+    const DipTarget drawn = dip_renderer_target(renderer);
+    const bool possible = scene->has_scattering && !renderer->plain_surfaces;
+    const int width = possible ? drawn.width : 0;
+    const int height = possible ? drawn.height : 0;
+    if (width == backdrop->target.width && height == backdrop->target.height) {
+        return true;
+    }
+    dip_backdrop_free(backdrop);
+    return !possible || dip_backdrop_make(backdrop, width, height, err);
+}
+
 bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, DipError *err) {
     const DipQuality *quality = &renderer->quality;
     const DipFinishSize size = dip_finish_size(quality, renderer->width, renderer->height);
@@ -462,6 +477,7 @@ bool dip_renderer_follow_settings(DipRenderer *renderer, const DipScene *scene, 
         return false;
     }
     if (!follow_mirrored(renderer, scene, err) || !follow_shadows(renderer, scene, err) ||
+        !follow_backdrop(renderer, scene, err) ||
         !dip_finish_follow(renderer->finish, quality, &size, err)) {
         return false;
     }

@@ -47,6 +47,7 @@ static void add_pbr_surface(const DipSceneDef *def, int index, DipScene *scene) 
     scene->has_coat |= surface->coat > 0.0f;
     scene->has_sheen |= surface->sheen != NULL;
     scene->has_transmission |= surface->transmission > 0.0f;
+    scene->has_scattering |= surface->scattering > 0.0f;
 }
 
 static bool create_mesh(const DipSceneDef *def, int index, DipScene *scene, DipError *err) {

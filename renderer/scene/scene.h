@@ -59,6 +59,9 @@ typedef struct DipPbrDef {
     // 0..1, for DIP_SURFACE_BLENDED: where metallic is 0, the share of the light that would become
     // diffuse that comes from behind instead, multiplied by the surface's own colour
     float transmission;
+    // 0..1: how much the roughness blurs what is seen through the surface. It stays sharp if
+    // roughness * scattering is 0.1 or less
+    float scattering;
 } DipPbrDef;
 
 // The colour of a surface is base colour * vertex colour * colour texture * light, in linear light,

@@ -182,7 +182,8 @@ def materials():
     put("cloth", **ext("sheen", sheenColorFactor=[.5, .25, 1], sheenRoughnessFactor=.75))
     put("coat", **ext("clearcoat", clearcoatFactor=.5, clearcoatRoughnessFactor=.125))
     put("pane", pbrMetallicRoughness={"baseColorFactor": [0, 1, 0, 1], "metallicFactor": 0},
-        **ext("transmission", transmissionFactor=.5))
+        extensions={"KHR_materials_transmission": {"transmissionFactor": .5},
+                    "KHR_materials_ior": {"ior": 1.25}})
     put("blend", alphaMode="BLEND", doubleSided=True,
         pbrMetallicRoughness={"baseColorFactor": [1, 1, 1, .5]})
     put("blend picture", alphaMode="BLEND",

@@ -48,6 +48,7 @@ static void assert_same_pbr(const DipPbrDef *one, const DipPbrDef *other) {
     assert_memory_equal(one->sheen_lin, other->sheen_lin, sizeof one->sheen_lin);
     assert_memory_equal(&one->sheen_roughness, &other->sheen_roughness, sizeof(float));
     assert_memory_equal(&one->transmission, &other->transmission, sizeof(float));
+    assert_memory_equal(&one->scattering, &other->scattering, sizeof(float));
 }
 
 static void assert_same_material(const DipMaterialDef *one, const DipMaterialDef *other) {
@@ -172,6 +173,7 @@ static void check_pbr(const DipPbrDef *pbr, int texture_count) {
     }
     assert_in_unit(pbr->sheen_roughness);
     assert_in_unit(pbr->transmission);
+    assert_in_unit(pbr->scattering);
     assert_true(isfinite(pbr->normal_scale));
 }
 

@@ -338,6 +338,8 @@ static void transparent_surfaces_are_blended(void **state) {
     assert_true(material_of(def, "blend")->double_sided);
     assert_near((double)material_of(def, "pane")->pbr->transmission, 0.5);
     assert_near((double)material_of(def, "blend")->pbr->transmission, 0.0);
+    assert_near((double)material_of(def, "pane")->pbr->scattering, 0.5);
+    assert_near((double)material_of(def, "blend")->pbr->scattering, 0.0);
     assert_int_equal(warnings.count, 1);
     assert_non_null(strstr(warnings.items[0].message, "KHR_materials_transmission is drawn as"));
     dip_error_list_free(&warnings);

@@ -49,12 +49,17 @@ static void forget_no_interval(cJSON *object) {
 // Adds the counters that files of older versions lack, with the value 0. They count work that
 // those versions did not do, such as blending, filters and shadows.
 static void add_counters(cJSON *counters) {
-    static const char *const later[] = {
-        "fragments_pbr",         "fragments_occluded", "fragments_emitting",   "fragments_coated",
-        "fragments_blended",     "fragments_copied",   "pixels_filtered",      "edges_found",
-        "vertices_posed",        "fragments_shadowed", "shadow_texels",        "shadow_bytes",
-        "pixels_reprojected",    "history_bytes",      "fragments_surrounded", "fragments_sheen",
-        "fragments_transmitting"};
+    static const char *const later[] = {"fragments_pbr",          "fragments_occluded",
+                                        "fragments_emitting",     "fragments_coated",
+                                        "fragments_blended",      "fragments_copied",
+                                        "pixels_filtered",        "edges_found",
+                                        "vertices_posed",         "fragments_shadowed",
+                                        "shadow_texels",          "shadow_bytes",
+                                        "pixels_reprojected",     "history_bytes",
+                                        "fragments_surrounded",   "fragments_sheen",
+                                        "fragments_transmitting", "fragments_scattering",
+                                        "fragments_behind",       "backdrop_texels",
+                                        "backdrop_bytes"};
     for (size_t i = 0; i < sizeof later / sizeof *later && cJSON_IsObject(counters); i++) {
         add_missing(counters, later[i], add_zero);
     }

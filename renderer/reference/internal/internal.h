@@ -11,6 +11,9 @@
 // Tables of the light that metallic-roughness surfaces reflect.
 typedef struct DipRefEnvironment DipRefEnvironment;
 
+// What lies behind rough glass.
+typedef struct DipRefBackdrop DipRefBackdrop;
+
 // The surfaces that cast shadows, and the light whose shadows they cast.
 typedef struct DipRefShadows DipRefShadows;
 
@@ -110,8 +113,9 @@ typedef struct DipRefTriangle {
 
 typedef struct DipRefTriangles {
     DipRefTriangle *items;
-    bool has_blended; // some triangle is blended
-    bool has_water;   // some triangle is water
+    bool has_blended;    // some triangle is blended
+    bool has_water;      // some triangle is water
+    bool has_scattering; // some triangle blurs what is seen through it
     size_t count;
     size_t capacity;
 } DipRefTriangles;
@@ -169,8 +173,26 @@ double dip_reference_opacity(const DipRefPosition *place, const DipRefFilter *fi
 enum { DIP_REF_LAYER = 7 };
 
 // Finds what is seen of what lies behind a surface whose colour and covered share are known.
+// backdrop: what rough glass shows blurred; NULL: it shows what lies behind it sharp.
 void dip_reference_see_through(const DipRefPosition *place, const DipRefFilter *filter,
-                               double layer[DIP_REF_LAYER]);
+                               const DipRefBackdrop *backdrop, double layer[DIP_REF_LAYER]);
+
+// backdrop.c: makes the levels of a picture of the surfaces that are not blended. Returns NULL if
+// memory runs out.
+DipRefBackdrop *dip_reference_backdrop_create(const double *rgb_lin, int width, int height);
+// *backdrop may be NULL and becomes NULL.
+void dip_reference_backdrop_destroy(DipRefBackdrop **backdrop);
+// Reads a backdrop around a position, blurred for a roughness.
+void dip_reference_backdrop_read(const DipRefBackdrop *backdrop, const DipRefPosition *place,
+                                 double roughness, double rgb[3]);
+
+// Returns whether a surface blurs what is seen through it.
+bool dip_reference_scatters(const DipRefTriangle *triangle);
+
+// converge.c: draws the backdrop of converged pictures, or sets *backdrop to NULL if no rough glass
+// is in view.
+bool dip_reference_converge_backdrop(const DipReference *reference, const DipPose *pose, int width,
+                                     int height, DipRefBackdrop **backdrop, DipError *err);
 
 // Draws a surface over a colour.
 void dip_reference_blend(const double layer[DIP_REF_LAYER], double rgb[3]);
@@ -268,10 +290,11 @@ void dip_reference_shade_pbr(const DipRefTriangle *triangle, const DipRefFilter 
                              const DipRefVaryings *varyings, const double texel[3], double rgb[3]);
 
 // pbr.c: finds the shares of the three channels of what lies behind that a transmitting surface,
-// whose own colour is base, lets through.
-void dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
-                                const DipRefVaryings *varyings, const double texel[3],
-                                const double base[3], double through[3]);
+// whose own colour is base, lets through. Returns the roughness with its map, but without the
+// spread of the normal map.
+double dip_reference_transmit_pbr(const DipRefTriangle *triangle, const DipRefFilter *filter,
+                                  const DipRefVaryings *varyings, const double texel[3],
+                                  const double base[3], double through[3]);
 
 // sky.c: shades a sky surface. If filter is NULL, the texture is read bilinearly from level 0.
 void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter *filter,

@@ -178,7 +178,9 @@ static void set_lights(const DipDrawInput *input, const DipSceneObject *object,
 static void set_pbr(const DipMaterialKernels *kernels, const DipSceneMesh *mesh,
                     DipSurfaceUniforms *uniforms, DipDraw *draw) {
     draw->vertex_shader = kernels->dip_kernel_fragment_lit_vertex;
-    if (uniforms->pbr->sheen || uniforms->pbr->transmission > 0.0f) {
+    if (uniforms->backdrop) {
+        draw->fragment_shader = kernels->dip_kernel_pbr_scattering_fragment;
+    } else if (uniforms->pbr->sheen || uniforms->pbr->transmission > 0.0f) {
         draw->fragment_shader = kernels->dip_kernel_pbr_layered_fragment;
     } else {
         draw->fragment_shader = uniforms->pbr->environment
@@ -314,6 +316,9 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     uniforms->rays = &set->rays;
     uniforms->lighting = &set->lighting;
     uniforms->lights = UINT64_MAX;
+    uniforms->backdrop = full && mesh->full_layout.pbr && mesh->full_layout.pbr->scattering > 0.0f
+                             ? pass->backdrop
+                             : NULL;
     set_lights(input, object, pass->shadow ? &set->shadow : NULL, uniforms, draw);
     set_effect(input, mesh, uniforms, draw);
     if (pass->shown && material->surface == DIP_SURFACE_WATER) {
@@ -340,7 +345,8 @@ static void transmit_last(const DipMaterialKernels *kernels, DipDrawSet *set) {
     set->count++;
 }
 
-// Blends the draw that was added last. The shader of reflecting water computes the alpha itself. A
+// Blends the draw that was added last. The shader of reflecting water computes the alpha itself,
+// and that of rough glass adds what is seen through it, so that it covers what lies behind. A
 // double-sided surface is drawn twice: first its back faces, then its front faces.
 static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int object,
                        DipDrawSet *set) {
@@ -356,7 +362,7 @@ static void blend_last(const DipDrawInput *input, const DipDrawView *pass, int o
     }
     draw->state = &draws_over;
     draw->own_shading = false; // the pixels of blended surfaces are never copied
-    if (uniforms->pbr && uniforms->pbr->transmission > 0.0f) {
+    if (uniforms->pbr && uniforms->pbr->transmission > 0.0f && !uniforms->backdrop) {
         transmit_last(input->kernels, set);
     }
     if (material->double_sided) {

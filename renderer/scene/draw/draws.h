@@ -40,6 +40,8 @@ typedef struct DipDrawView {
     bool mirrored; // true: draws the mirrored scene, so windings are reversed and water is left out
     const DipTarget *shown; // the mirrored picture that water shows; NULL: water is plain
     bool schlick;           // see DipReflectionDef
+    // What lies behind rough glass; NULL: such glass shows it sharp.
+    const DipBackdrop *backdrop;
     // The shadows that surfaces receive, with the eye of this view; NULL: there are none. It is
     // copied.
     const DipShadowUniforms *shadow;

@@ -1,5 +1,6 @@
 // Draws frames: turns a scene, a pose and settings into the render passes of a frame. These are the
-// main pass and, if water reflects, a pass that draws the mirrored scene.
+// main pass and, before it, what the main pass reads: the shadow map, the mirrored scene if water
+// reflects, and the backdrop of rough glass.
 #include "renderer/scene/renderer.h"
 
 #include "renderer/base/clock.h"
@@ -94,11 +95,14 @@ typedef struct FrameSetup {
     DipShadowFit shadow_fit; // the next two are made only if the plan runs the shadows
     DipPass shadow_pass;
     DipPass mirrored_pass; // made only if the plan runs the reflection
+    DipPass backdrop_pass; // made only if the plan runs the scattering
     DipPass pass;
     DipBoxFilter box;                    // used only if a render scale draws a larger picture
     DipPipelineCounters counters;        // sums over all passes
     DipPipelineCounters shadow_counters; // of the shadow map alone
     uint64_t fragments_mirrored;
+    uint64_t fragments_behind;
+    uint64_t backdrop_texels;
     int64_t time_ns;
     double posing_ms;                  // how long it took to move the scene to the frame's time
     const DipSampleReadback *readback; // NULL unless samples are read
@@ -184,6 +188,7 @@ static void make_scene_pass(FrameSetup *setup) {
         .shadow = see_shadow(setup, &setup->view, &shadow),
         .shown = setup->plan.water_reflects ? &renderer->mirror.target : NULL,
         .schlick = renderer->reflection.schlick,
+        .backdrop = setup->plan.effects.scattering.run ? &renderer->backdrop.levels : NULL,
     };
     setup->pass = begin_pass(renderer, setup->scene, &setup->plan);
     setup->pass.target = dip_renderer_target(renderer);
@@ -196,6 +201,18 @@ static void make_scene_pass(FrameSetup *setup) {
     if (renderer->scaled.codes) {
         average_pass(setup);
     }
+}
+
+// Makes the pass that draws what lies behind rough glass: the draws of the main pass that are not
+// blended. The main pass must have been made before.
+static void make_backdrop_pass(FrameSetup *setup) {
+    DipRenderer *renderer = setup->renderer;
+    DipPass *pass = &setup->backdrop_pass;
+    *pass = begin_pass(renderer, setup->scene, &setup->plan);
+    pass->target = renderer->backdrop.target;
+    pass->region = setup->plan.backdrop_region;
+    pass->draws = renderer->set.draws;
+    pass->draw_count = renderer->set.plain_count;
 }
 
 // --- the history ---------------------------------------------------------------------------------
@@ -284,6 +301,16 @@ static void count_mirror(const DipMirror *mirror, bool drawn, DipCounters *count
     counters->tiles_spared += drawn ? 0 : across * down;
 }
 
+static void count_backdrop(const FrameSetup *setup, DipCounters *counters) {
+    const DipBackdropParts *backdrop = &setup->renderer->backdrop;
+    const uint64_t across = (uint64_t)tiles_in(backdrop->target.width);
+    const uint64_t down = (uint64_t)tiles_in(backdrop->target.height);
+    counters->fragments_behind = setup->fragments_behind;
+    counters->backdrop_texels = setup->backdrop_texels;
+    counters->backdrop_bytes = dip_backdrop_bytes(backdrop);
+    counters->tiles_spared += setup->plan.effects.scattering.run ? 0 : across * down;
+}
+
 // Sets the scene of a frame at the frame's time. If the scene moves, the frames that are drawn at
 // once show the posed scene of the first one.
 static void pose_scene(FrameSetup *setup, const DipScene *scene, int64_t time_ns,
@@ -336,6 +363,8 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
         .seen_mirrored = &setup->seen_mirrored,
         .parts = &setup->parts,
         .reflection = &setup->reflection,
+        .backdrop_width = renderer->backdrop.target.width,
+        .backdrop_height = renderer->backdrop.target.height,
         .quality = &renderer->quality,
         .plain_surfaces = renderer->plain_surfaces,
         .force_all = renderer->force_all_effects,
@@ -361,6 +390,9 @@ static bool begin_frame(FrameSetup *setup, DipRenderer *renderer, const DipScene
         make_mirrored_pass(setup);
     }
     make_scene_pass(setup);
+    if (setup->plan.effects.scattering.run) {
+        make_backdrop_pass(setup);
+    }
     return true;
 }
 
@@ -403,8 +435,38 @@ static bool draw_shadows(FrameSetup *setups, int count, DipError *err) {
     return true;
 }
 
-// Draws the shadow maps of all frames, then their mirrored passes together, then their main passes
-// together. same_geometry: the frames differ only in samples and shading.
+// Draws the backdrops of all frames together, and makes their levels.
+static bool draw_backdrops(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
+    DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
+    int work_count = 0;
+    for (int i = 0; i < count; i++) {
+        setups[i].fragments_behind = setups[i].counters.fragments_shaded;
+        if (setups[i].plan.effects.scattering.run) {
+            works[work_count++] = work_of(dip_renderer_pipeline(setups[i].renderer),
+                                          &setups[i].backdrop_pass, &setups[i]);
+        }
+    }
+    if (work_count && !dip_pipeline_draw_passes(works, work_count, same_geometry, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        FrameSetup *setup = &setups[i];
+        setup->fragments_behind = setup->counters.fragments_shaded - setup->fragments_behind;
+        if (setup->plan.effects.scattering.run) {
+            DipStageTimes *stages = &setup->frame->stages;
+            const int64_t begin_ns = dip_clock_ns();
+            setup->backdrop_texels = dip_backdrop_fill(
+                &setup->renderer->backdrop, &setup->plan.backdrop_region, setup->renderer->pool);
+            const double ms = 1e-6 * (double)(dip_clock_ns() - begin_ns);
+            stages->resolve_ms += ms;
+            stages->total_ms += ms;
+        }
+    }
+    return true;
+}
+
+// Draws the shadow maps of all frames, then their mirrored passes together, then their backdrops,
+// then their main passes together. same_geometry: the frames differ only in samples and shading.
 static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipError *err) {
     DipPassWork works[DIP_MAX_FRAMES_AT_ONCE] = {{.pipeline = NULL}};
     int work_count = 0;
@@ -429,6 +491,11 @@ static bool draw_frames(FrameSetup *setups, int count, bool same_geometry, DipEr
     for (int i = 0; i < count; i++) {
         setups[i].fragments_mirrored =
             setups[i].counters.fragments_shaded - setups[i].shadow_counters.fragments_shaded;
+    }
+    if (!draw_backdrops(setups, count, same_geometry, err)) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
         begin_tiles(&setups[i]);
         works[i] = work_of(dip_renderer_pipeline(setups[i].renderer), &setups[i].pass, &setups[i]);
         if (setups[i].copies_from) {
@@ -450,6 +517,7 @@ static DipCounters frame_counters(const DipPipelineCounters *passes) {
         .fragments_surrounded = passes->shader_counts[DIP_SHADER_COUNT_SURROUNDED],
         .fragments_sheen = passes->shader_counts[DIP_SHADER_COUNT_SHEEN],
         .fragments_transmitting = passes->shader_counts[DIP_SHADER_COUNT_TRANSMITTING],
+        .fragments_scattering = passes->shader_counts[DIP_SHADER_COUNT_SCATTERING],
         .fragments_shadowed = passes->shader_counts[DIP_SHADER_COUNT_SHADOWED],
         .fragments_blended = passes->fragments_ordered, // all ordered draws of a scene blend
         .fragments_sky = passes->shader_counts[DIP_SHADER_COUNT_SKY],
@@ -477,6 +545,7 @@ static void end_frame(const FrameSetup *setup) {
     DipFrame *frame = setup->frame;
     frame->counters = frame_counters(&setup->counters);
     frame->counters.fragments_mirrored = setup->fragments_mirrored;
+    count_backdrop(setup, &frame->counters);
     frame->counters.vertices_posed = setup->scene->moving_vertices;
     frame->stages.geometry_ms += setup->posing_ms;
     frame->stages.total_ms += setup->posing_ms;

@@ -5,6 +5,7 @@
 
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draw/backdrop.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/draw/shadow_map.h"
 #include "renderer/scene/draw/view.h"
@@ -71,6 +72,7 @@ struct DipRenderer {
     DipDrawSet set;
     DipMirror mirror;
     DipShadows shadows;
+    DipBackdropParts backdrop;     // of the size of the picture that the main pass draws
     DipMaterialSamplers *samplers; // one per material
     DipUnsharedMeshes *unshared;   // one mesh per object with gi=off; NULL with gi=on
     DipPosedScene *posed;          // the scene at the time of a frame; NULL if it has no motion

@@ -26,6 +26,8 @@
     X(void, dip_kernel_blended_fragment, (DipFragmentBatch * batch))                               \
     /* The share of what lies behind that a transmitting surface lets through. */                  \
     X(void, dip_kernel_transmittance_fragment, (DipFragmentBatch * batch))                         \
+    /* For surfaces that scatter what they let through: reads it from the backdrop. */             \
+    X(void, dip_kernel_pbr_scattering_fragment, (DipFragmentBatch * batch))                        \
     X(void, dip_kernel_sky_fragment, (DipFragmentBatch * batch))                                   \
     X(void, dip_kernel_water_fragment, (DipFragmentBatch * batch))
 

@@ -72,6 +72,7 @@ typedef struct DipPbrUniforms {
     float coat_roughness;
     const DipSheen *sheen; // NULL: there is none
     float transmission;    // share of what would be diffuse light that is let through
+    float scattering;      // of what is let through; 0 unless roughness blurs it
 } DipPbrUniforms;
 
 #endif

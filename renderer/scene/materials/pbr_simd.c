@@ -1,6 +1,7 @@
 // The shader of metallic-roughness surfaces. Compiled once per instruction set. docs/picture.md,
 // Metal and gloss, defines the formulas.
 #include "renderer/scene/materials/arrival_simd.h"
+#include "renderer/scene/materials/backdrop_simd.h"
 #include "renderer/scene/materials/environment_simd.h"
 #include "renderer/scene/materials/facing_simd.h"
 #include "renderer/scene/materials/material_kernels.h"
@@ -451,8 +452,8 @@ void DIP_KERNEL(dip_kernel_pbr_layered_fragment)(DipFragmentBatch *batch) {
 // --- transmission --------------------------------------------------------------------------------
 
 // Computes the share of what lies behind that a surface and its coat let through.
-VEC_INLINE void find_transmittance(DipFragmentBatch *batch, int i, Sights *sights, const Maps *maps,
-                                   const Width *known, const float *opacity) {
+VEC_INLINE void find_transmittance(const DipFragmentBatch *batch, int i, Sights *sights,
+                                   const Maps *maps, const Width *known, Vf through[3]) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const DipPbrUniforms *pbr = uniforms->pbr;
     const PbrPoint point = find_point(batch, i, sights, maps);
@@ -462,11 +463,10 @@ VEC_INLINE void find_transmittance(DipFragmentBatch *batch, int i, Sights *sight
     const Vf rest = 1.0f - clamp01(vf3_dot(vf3_load(sights->mesh, i), point.to_eye));
     const Vf fresnel = (rest * rest) * (rest * rest) * rest * (1.0f - COAT_F0) + COAT_F0;
     const Vf clear = (1.0f - point.metallic) * pbr->transmission * (1.0f - fresnel * pbr->coat);
-    const Vf covered = vf_load(opacity + i);
     for (int c = 0; c < 3; c++) {
         const Channel channel = channel_of(pbr, &point, c, base[c], vf_splat(0.0f));
         const Vf kept = clamp01(1.0f - (channel.f0 * lobe.a + f90 * lobe.b));
-        vf_store(batch->colour[c] + i, (1.0f - covered) + covered * (clear * base[c] * kept));
+        through[c] = clear * base[c] * kept;
     }
 }
 
@@ -482,7 +482,53 @@ void DIP_KERNEL(dip_kernel_transmittance_fragment)(DipFragmentBatch *batch) {
     const Width surface = width_of_all(uniforms->pbr->roughness);
     const Width *known = maps.metal_rough || maps.normal ? NULL : &surface;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        find_transmittance(batch, i, &sights, &maps, known, opacity);
+        Vf through[3];
+        find_transmittance(batch, i, &sights, &maps, known, through);
+        const Vf covered = vf_load(opacity + i);
+        for (int c = 0; c < 3; c++) {
+            vf_store(batch->colour[c] + i, (1.0f - covered) + covered * through[c]);
+        }
     }
     batch->work.counts[DIP_SHADER_COUNT_TRANSMITTING] += (uint64_t)batch->count;
+}
+
+// Computes what a surface lets through of its backdrop, which its roughness blurs.
+VEC_INLINE void see_backdrop(DipFragmentBatch *batch, float (*seen)[DIP_FRAGMENT_BATCH]) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipPbrUniforms *pbr = uniforms->pbr;
+    Memory memory;
+    Maps maps;
+    begin_batch(batch, &memory, &maps);
+    Sights sights;
+    find_sights(batch, &maps, &sights);
+    const Width surface = width_of_all(pbr->roughness);
+    const Width *known = maps.metal_rough || maps.normal ? NULL : &surface;
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        Vf through[3];
+        Vf behind[3];
+        Vf roughness = vf_splat(pbr->roughness);
+        if (maps.metal_rough) {
+            roughness = roughness * vf_load(maps.metal_rough[1] + i);
+        }
+        find_transmittance(batch, i, &sights, &maps, known, through);
+        read_backdrop(uniforms->backdrop, vf_load(batch->x + i), vf_load(batch->y + i),
+                      roughness * pbr->scattering, behind);
+        for (int c = 0; c < 3; c++) {
+            vf_store(seen[c] + i, through[c] * behind[c]);
+        }
+    }
+}
+
+void DIP_KERNEL(dip_kernel_pbr_scattering_fragment)(DipFragmentBatch *batch) {
+    float seen[3][DIP_FRAGMENT_BATCH];
+    see_backdrop(batch, seen);
+    DIP_KERNEL(dip_kernel_pbr_layered_fragment)(batch);
+    for (int i = 0; i < batch->count; i += DIP_LANES) {
+        for (int c = 0; c < 3; c++) {
+            vf_store(batch->colour[c] + i,
+                     clamp01(vf_load(batch->colour[c] + i)) + vf_load(seen[c] + i));
+        }
+    }
+    batch->work.counts[DIP_SHADER_COUNT_TRANSMITTING] += (uint64_t)batch->count;
+    batch->work.counts[DIP_SHADER_COUNT_SCATTERING] += (uint64_t)batch->count;
 }

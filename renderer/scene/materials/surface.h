@@ -5,6 +5,7 @@
 
 #include "renderer/pipeline/shader.h"
 #include "renderer/scene/lights.h"
+#include "renderer/scene/materials/backdrop.h"
 #include "renderer/scene/materials/pbr.h"
 #include "renderer/scene/scene.h"
 
@@ -26,6 +27,7 @@ enum {
     DIP_SHADER_COUNT_SHADOWED,   // fragments that read the shadow map
     DIP_SHADER_COUNT_SHEEN,
     DIP_SHADER_COUNT_TRANSMITTING,
+    DIP_SHADER_COUNT_SCATTERING,
 };
 
 enum {
@@ -157,6 +159,8 @@ typedef struct DipSurfaceUniforms {
     // Of a metallic-roughness surface, which also has the four fields of surfaces whose fragments
     // are lit, `lighting` and `lights`; NULL for other surfaces.
     const DipPbrUniforms *pbr;
+    // What lies behind a surface that scatters what it lets through; NULL for other surfaces.
+    const DipBackdrop *backdrop;
     // The next three are set for blended surfaces.
     float opacity;
     bool has_alpha; // the alpha of the colour texture and the vertices multiplies the opacity

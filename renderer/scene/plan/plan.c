@@ -1,6 +1,7 @@
 // Decides the effects of a frame, with one function for each effect.
 #include "renderer/scene/plan/plan.h"
 
+#include "renderer/scene/draw/backdrop.h"
 #include "renderer/scene/plan/extent.h"
 #include "renderer/scene/resources/scene_layout.h"
 
@@ -76,6 +77,11 @@ static bool has_sheen(const DipScene *scene, int object) {
 static bool transmits(const DipScene *scene, int object) {
     const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
     return pbr && pbr->transmission > 0.0f;
+}
+
+static bool scatters(const DipScene *scene, int object) {
+    const DipPbrUniforms *pbr = mesh_of(scene, object)->full_layout.pbr;
+    return pbr && pbr->scattering > 0.0f;
 }
 
 static bool is_blended(const DipScene *scene, int object) {
@@ -313,8 +319,8 @@ static DipEffect plan_pbr(const DipPlanInput *input, DipFramePlan *plan) {
                : skip("no metallic-roughness surface is in view");
 }
 
-// Occlusion, emission, coats, sheens and transmission are parts of metallic-roughness surfaces:
-// without `pbr`, none runs.
+// Occlusion, emission, coats, sheens, transmission and scattering are parts of metallic-roughness
+// surfaces: without `pbr`, none runs.
 static DipEffect plan_occlusion(const DipPlanInput *input, DipFramePlan *plan) {
     if (!plan->effects.pbr.run) {
         return plan->effects.pbr;
@@ -373,6 +379,44 @@ static DipEffect plan_transmission(const DipPlanInput *input, DipFramePlan *plan
     return input->force_all || any_in_view(input, plan, transmits)
                ? run(input, "surfaces that transmit light are in view")
                : skip("no surface that transmits light is in view");
+}
+
+// Finds the part of the backdrop that rough glass may read. In the water's reflection, glass shows
+// what lies behind it sharp.
+static bool find_backdrop_region(const DipPlanInput *input, DipTargetRegion *region) {
+    DipExtent extent = dip_extent_none();
+    int margin = 0;
+    for (int i = 0; i < input->scene->object_count; i++) {
+        if (scatters(input->scene, i) && object_in_view(input->scene, input->seen, i)) {
+            const DipPbrUniforms *pbr = mesh_of(input->scene, i)->full_layout.pbr;
+            const int own = dip_backdrop_margin(input->backdrop_width,
+                                                (double)pbr->roughness * (double)pbr->scattering);
+            static const float in_world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+            double corners[8][3];
+            dip_extent_box_corners(in_world, &input->scene->objects[i].bounds, corners);
+            dip_extent_add_box(&extent, input->view, (const double(*)[3])corners);
+            margin = own > margin ? own : margin;
+        }
+    }
+    return dip_extent_region(&extent, input->backdrop_width, input->backdrop_height, margin,
+                             region);
+}
+
+static DipEffect plan_scattering(const DipPlanInput *input, DipFramePlan *plan) {
+    if (!plan->effects.transmission.run) {
+        return plan->effects.transmission;
+    }
+    if (!input->scene->has_scattering) {
+        return skip("no surface blurs what is seen through it");
+    }
+    if (input->force_all) {
+        plan->backdrop_region =
+            (DipTargetRegion){0, 0, input->backdrop_width, input->backdrop_height};
+        return run(input, forced);
+    }
+    return find_backdrop_region(input, &plan->backdrop_region)
+               ? run(input, "surfaces that blur what is seen through them are in view")
+               : skip("no surface that blurs what is seen through it is in view");
 }
 
 // All metallic-roughness surfaces of a scene with an environment see it.
@@ -473,6 +517,7 @@ void dip_plan_settle(const DipPlanInput *input, const DipCounters *counters,
     settle(&effects->coat, counters->fragments_coated + more->fragments_coated);
     settle(&effects->sheen, counters->fragments_sheen + more->fragments_sheen);
     settle(&effects->transmission, counters->fragments_transmitting + more->fragments_transmitting);
+    settle(&effects->scattering, counters->fragments_scattering + more->fragments_scattering);
     settle(&effects->environment, counters->fragments_surrounded + more->fragments_surrounded);
     settle(&effects->sky, counters->fragments_sky + more->fragments_sky);
     settle(&effects->blend, counters->fragments_blended);

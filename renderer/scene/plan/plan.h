@@ -29,6 +29,8 @@ typedef struct DipPlanInput {
     // Valid only if the plan sets mirrored_parts.
     const DipParts *parts;
     const DipReflectionDef *reflection;
+    int backdrop_width; // pixels of the backdrop of rough glass; 0: the renderer has none
+    int backdrop_height;
     const DipQuality *quality;
     bool plain_surfaces;
     bool force_all; // see DipRendererDef.force_all_effects
@@ -41,6 +43,7 @@ typedef struct DipFramePlan {
     bool water_reflects;
     DipTargetRegion mirrored_region; // the part of the mirrored pass's target that is drawn
     bool mirrored_parts;             // true: a tile draws only its part (DipPlanInput.parts)
+    DipTargetRegion backdrop_region; // the part of the backdrop of rough glass that is drawn
     int samples_per_group;           // samples per sample group of alpha-clipped surfaces
 } DipFramePlan;
 

@@ -121,6 +121,7 @@ DipPbrUniforms dip_pbr_surface(const DipSceneDef *def, const DipMeshDef *mesh, i
         .coat = pbr->coat,
         .coat_roughness = pbr->coat_roughness,
         .transmission = dip_pbr_transmission(material),
+        .scattering = dip_pbr_scattering(material),
     };
     if (occludes(pbr)) {
         surface.occlusion_varying = pbr->occlusion_at_uv1 ? uv1 : uv0;

@@ -36,6 +36,14 @@ static inline float dip_pbr_transmission(const DipMaterialDef *material) {
     return blended && material->pbr ? material->pbr->transmission : 0.0f;
 }
 
+// Returns how much a material blurs what is seen through it: 0 unless it transmits, and its blur is
+// more than half a thousandth of the picture's width.
+static inline float dip_pbr_scattering(const DipMaterialDef *material) {
+    const DipPbrDef *pbr = dip_pbr_transmission(material) > 0.0f ? material->pbr : NULL;
+    const bool visible = pbr && pbr->roughness * pbr->scattering > 0.1f;
+    return visible ? pbr->scattering : 0.0f;
+}
+
 // Gives a surface its sheen, if it has one, which is kept in *sheen. sheen may be NULL where no
 // surface has one.
 void dip_pbr_add_sheen(const DipPbrDef *def, DipSheen *sheen, DipPbrUniforms *surface);

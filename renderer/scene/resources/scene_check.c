@@ -55,6 +55,7 @@ static bool check_pbr(const DipSceneDef *def, const DipMaterialDef *material, Di
             check_range(&pbr->coat, 1, 0.0, 1.0, name, "coat", err) &&
             check_range(&pbr->coat_roughness, 1, 0.0, 1.0, name, "coat_roughness", err) &&
             check_range(&pbr->transmission, 1, 0.0, 1.0, name, "pbr.transmission", err) &&
+            check_range(&pbr->scattering, 1, 0.0, 1.0, name, "scattering", err) &&
             check_range(pbr->sheen_lin, 3, 0.0, 1.0, name, "sheen_lin", err) &&
             check_range(&pbr->sheen_roughness, 1, 0.0, 1.0, name, "sheen_roughness", err) &&
             check_index(pbr->metal_rough_map, textures, name, "metal_rough_map", err) &&

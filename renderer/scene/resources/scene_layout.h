@@ -89,6 +89,7 @@ struct DipScene {
     bool has_emission;       // some metallic-roughness mesh sends out light
     bool has_coat;           // some metallic-roughness mesh has a clear coat
     bool has_transmission;   // some metallic-roughness mesh transmits light
+    bool has_scattering;     // some such mesh blurs what is seen through it
     bool has_sheen;          // some metallic-roughness mesh has a sheen
     bool has_sky;            // some mesh is a sky with moving clouds
     int blended_count;       // objects whose material is blended

@@ -149,6 +149,7 @@ static void a_material_is_hashed(void **state) {
         NUMBERS(DipPbrDef, sheen_lin, float),
         NUMBERS(DipPbrDef, sheen_roughness, float),
         NUMBERS(DipPbrDef, transmission, float),
+        NUMBERS(DipPbrDef, scattering, float),
     };
     EXPECT_ALL_HASHED(pbr, DipPbrDef, pbr_fields);
 }

@@ -576,6 +576,7 @@ static void wrong_numbers_are_refused(void **state) {
                 {offsetof(DipPbrDef, coat), "coat"},
                 {offsetof(DipPbrDef, coat_roughness), "coat_roughness"},
                 {offsetof(DipPbrDef, transmission), "pbr.transmission"},
+                {offsetof(DipPbrDef, scattering), "scattering"},
                 {offsetof(DipPbrDef, sheen_lin), "sheen_lin"},
                 {offsetof(DipPbrDef, sheen_roughness), "sheen_roughness"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

@@ -45,11 +45,12 @@ static void describe_pbr(const SearchScene *made, const DipPbrDef *pbr, FILE *ou
     describe_texture(made, "emission map", pbr->emission_map, out);
     fprintf(out,
             "\n  occlusion %g, emission (%g, %g, %g), coat %g of roughness %g, "
-            "sheen (%g, %g, %g) of roughness %g, transmission %g\n",
+            "sheen (%g, %g, %g) of roughness %g, transmission %g, scattering %g\n",
             (double)pbr->occlusion_strength, (double)pbr->emission_lin[0],
             (double)pbr->emission_lin[1], (double)pbr->emission_lin[2], (double)pbr->coat,
             (double)pbr->coat_roughness, (double)pbr->sheen_lin[0], (double)pbr->sheen_lin[1],
-            (double)pbr->sheen_lin[2], (double)pbr->sheen_roughness, (double)pbr->transmission);
+            (double)pbr->sheen_lin[2], (double)pbr->sheen_roughness, (double)pbr->transmission,
+            (double)pbr->scattering);
 }
 
 static void describe_lights(const DipLightingDef *lighting, FILE *out) {

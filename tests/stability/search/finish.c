@@ -148,7 +148,7 @@ static void choose_lights(SearchMaker *maker) {
 }
 
 void search_finish_materials(SearchMaker *maker) {
-    const DipTestScene *scene = &maker->made->scene;
+    DipTestScene *scene = &maker->made->scene;
     if (!choices_rarely(maker->choices, 2)) {
         return;
     }
@@ -163,5 +163,9 @@ void search_finish_materials(SearchMaker *maker) {
     }
     if (choices_rarely(maker->choices, 3)) {
         choose_lights(maker);
+    }
+    const float scattering = choices_draw(maker->choices, 2) ? 1.0f : 0.0f;
+    for (int i = 0; i < scene->def.material_count; i++) {
+        scene->pbrs[i].scattering = scattering;
     }
 }

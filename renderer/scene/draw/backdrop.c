@@ -1,0 +1,197 @@
+// Makes the levels of a backdrop in whole numbers, so that they have the same bits everywhere.
+#include "renderer/scene/draw/backdrop.h"
+
+#include "renderer/base/pages.h"
+#include "renderer/base/srgb.h"
+
+#include <string.h>
+
+enum {
+    CODES = 256,
+    ROWS = 16, // rows of a level in a job of the pool
+};
+
+// Returns log2 of a whole number from 1 on, exact to 2^-40, with + - * / alone: squaring a number
+// of 1 to 2 doubles its logarithm, of which each step finds a binary digit.
+static double log2_of(int number) {
+    double rest = number;
+    double sum = 0.0;
+    double digit = 1.0;
+    for (; rest >= 2.0; rest *= 0.5) {
+        sum += 1.0;
+    }
+    for (int i = 0; i < 44; i++) {
+        rest *= rest;
+        digit *= 0.5;
+        if (rest >= 2.0) {
+            rest *= 0.5;
+            sum += digit;
+        }
+    }
+    return sum;
+}
+
+static double least_level(int width) {
+    return log2_of(width) - log2_of(DIP_BACKDROP_WIDTH);
+}
+
+// Lays out the levels of a picture. Returns the number of texels of all.
+static size_t lay_out(DipBackdrop *levels, int width, int height) {
+    size_t texels = 0;
+    int count = 0;
+    for (;; count++) {
+        levels->first[count] = (int32_t)texels;
+        levels->width[count] = width;
+        levels->height[count] = height;
+        texels += (size_t)width * (size_t)height;
+        if (width == 1 && height == 1) {
+            break;
+        }
+        width = (width + 1) / 2;
+        height = (height + 1) / 2;
+    }
+    levels->count = count + 1;
+    return texels;
+}
+
+static size_t texel_count(const DipBackdrop *levels) {
+    const int last = levels->count - 1;
+    return levels->count ? (size_t)levels->first[last] + 1 : 0;
+}
+
+bool dip_backdrop_make(DipBackdropParts *backdrop, int width, int height, DipError *err) {
+    *backdrop = (DipBackdropParts){.target = {.width = width, .height = height}};
+    DipTarget *target = &backdrop->target;
+    DipBackdrop *levels = &backdrop->levels;
+    const size_t texel_bytes = lay_out(levels, width, height) * 2 * sizeof *levels->texels;
+    levels->least_level = (float)least_level(width);
+    levels->level_range = (float)log2_of(DIP_BACKDROP_WIDTH);
+    target->stride_bytes = (size_t)width * 4;
+    target->rgba8 = dip_lines_alloc(target->stride_bytes * (size_t)height);
+    levels->texels = dip_pages_alloc(texel_bytes);
+    backdrop->light16 = dip_lines_alloc(CODES * sizeof *backdrop->light16);
+    if (!target->rgba8 || !levels->texels || !backdrop->light16) {
+        dip_backdrop_free(backdrop);
+        return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "size", "no memory for %dx%d pixels",
+                             width, height);
+    }
+    memset(target->rgba8, 0, target->stride_bytes * (size_t)height);
+    memset(levels->texels, 0, texel_bytes);
+    DipSrgbDecodeTable decode;
+    dip_srgb_decode_table(&decode);
+    for (int code = 0; code < CODES; code++) {
+        backdrop->light16[code] = (uint16_t)(decode.linear[code] * DIP_LINEAR16_MAX + 0.5);
+    }
+    return true;
+}
+
+void dip_backdrop_free(DipBackdropParts *backdrop) {
+    dip_lines_free(backdrop->target.rgba8);
+    dip_lines_free(backdrop->levels.texels);
+    dip_lines_free(backdrop->light16);
+    *backdrop = (DipBackdropParts){.light16 = NULL};
+}
+
+// --- filling -------------------------------------------------------------------------------------
+
+// A level that is being filled.
+typedef struct Filling {
+    const DipBackdropParts *backdrop;
+    int level;
+    DipTargetRegion region; // of the level, in texels
+} Filling;
+
+static void store(int32_t *texel, const uint32_t light[3]) {
+    texel[0] = (int32_t)(light[0] | light[1] << 16);
+    texel[1] = (int32_t)light[2];
+}
+
+static void decode_row(const Filling *filling, int y) {
+    const DipBackdropParts *backdrop = filling->backdrop;
+    const DipTarget *target = &backdrop->target;
+    const uint8_t *pixels = target->rgba8 + (size_t)y * target->stride_bytes;
+    int32_t *row = backdrop->levels.texels + 2 * (size_t)y * (size_t)target->width;
+    for (int x = filling->region.x0; x < filling->region.x1; x++) {
+        uint32_t light[3];
+        for (int c = 0; c < 3; c++) {
+            light[c] = backdrop->light16[pixels[4 * x + c]];
+        }
+        store(row + 2 * (size_t)x, light);
+    }
+}
+
+static int lesser(int a, int b) {
+    return a < b ? a : b;
+}
+
+static void halve_row(const Filling *filling, int y) {
+    const DipBackdrop *levels = &filling->backdrop->levels;
+    const int finer = filling->level - 1;
+    const int width = levels->width[finer];
+    const int32_t *from = levels->texels + 2 * (size_t)levels->first[finer];
+    const size_t stride = 2 * (size_t)width;
+    const int32_t *upper = from + (size_t)(2 * y) * stride;
+    const int32_t *lower = from + (size_t)lesser(2 * y + 1, levels->height[finer] - 1) * stride;
+    int32_t *row = levels->texels + 2 * ((size_t)levels->first[finer + 1] +
+                                         (size_t)y * (size_t)levels->width[finer + 1]);
+    for (int x = filling->region.x0; x < filling->region.x1; x++) {
+        const size_t left = 4 * (size_t)x;
+        const size_t right = 2 * (size_t)lesser(2 * x + 1, width - 1);
+        const int32_t *const texels[4] = {upper + left, upper + right, lower + left, lower + right};
+        uint32_t sum[3] = {2, 2, 2}; // for rounding, halves up
+        for (int k = 0; k < 4; k++) {
+            const uint32_t words[2] = {(uint32_t)texels[k][0], (uint32_t)texels[k][1]};
+            sum[0] += words[0] & 65535U;
+            sum[1] += words[0] >> 16;
+            sum[2] += words[1];
+        }
+        const uint32_t light[3] = {sum[0] >> 2, sum[1] >> 2, sum[2] >> 2};
+        store(row + 2 * (size_t)x, light);
+    }
+}
+
+static void fill_rows(void *context, int job, int worker) {
+    (void)worker;
+    const Filling *filling = context;
+    const int begin = filling->region.y0 + job * ROWS;
+    const int end = lesser(begin + ROWS, filling->region.y1);
+    for (int y = begin; y < end; y++) {
+        if (filling->level) {
+            halve_row(filling, y);
+        } else {
+            decode_row(filling, y);
+        }
+    }
+}
+
+uint64_t dip_backdrop_fill(const DipBackdropParts *backdrop, const DipTargetRegion *region,
+                           DipPool *pool) {
+    Filling filling = {.backdrop = backdrop, .region = *region};
+    DipTargetRegion *part = &filling.region;
+    uint64_t texels = 0;
+    for (; filling.level < backdrop->levels.count; filling.level++) {
+        const int rows = part->y1 - part->y0;
+        texels += (uint64_t)(part->x1 - part->x0) * (uint64_t)rows;
+        dip_pool_run(pool, (rows + ROWS - 1) / ROWS, fill_rows, &filling);
+        *part =
+            (DipTargetRegion){part->x0 / 2, part->y0 / 2, (part->x1 + 1) / 2, (part->y1 + 1) / 2};
+    }
+    return texels;
+}
+
+// A read uses two levels, and in the coarser one up to 2.5 texels on each side. Two more pixels
+// allow for rounding.
+int dip_backdrop_margin(int width, double roughness) {
+    const double level = least_level(width) + log2_of(DIP_BACKDROP_WIDTH) * roughness;
+    int coarser = 1;
+    while (coarser < DIP_BACKDROP_LEVELS - 1 && level >= coarser) {
+        coarser++;
+    }
+    return (3 << coarser) + 2;
+}
+
+uint64_t dip_backdrop_bytes(const DipBackdropParts *backdrop) {
+    const DipTarget *target = &backdrop->target;
+    return target->stride_bytes * (uint64_t)target->height +
+           (uint64_t)texel_count(&backdrop->levels) * 2 * sizeof *backdrop->levels.texels;
+}

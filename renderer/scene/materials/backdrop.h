@@ -1,0 +1,25 @@
+// The picture of what lies behind rough glass, in the form that the shader of such surfaces reads.
+// docs/picture.md, Transmission, defines the levels.
+#ifndef DIP_RENDERER_SCENE_MATERIALS_BACKDROP_H
+#define DIP_RENDERER_SCENE_MATERIALS_BACKDROP_H
+
+#include <stdint.h>
+
+enum { DIP_BACKDROP_LEVELS = 14 }; // a picture of DIP_MAX_TARGET_SIZE pixels has as many
+
+// Level 0 is the picture, and each further level has half the width and height, rounded up. A texel
+// has three channels of 16-bit linear light in two words: red and green in the low and the high
+// half of the first, and blue in the second.
+typedef struct DipBackdrop {
+    int32_t *texels;
+    int count;                           // levels; the last one has 1x1 texels
+    int32_t first[DIP_BACKDROP_LEVELS];  // index of the level's first texel
+    int32_t width[DIP_BACKDROP_LEVELS];  // in texels
+    int32_t height[DIP_BACKDROP_LEVELS]; // in texels
+    // A surface of roughness r reads the level least_level + r * level_range, bounded by the first
+    // and the last level.
+    float least_level;
+    float level_range;
+} DipBackdrop;
+
+#endif
