@@ -32,19 +32,31 @@ static bool make_level(Level *level, int width, int height) {
     return level->rgb != NULL;
 }
 
+// Adds the mean of the area of `from` that a texel of `to` covers.
+static void add_area(const Level *from, const Level *to, int x, int y, double rgb[3]) {
+    const double wide = (double)from->width / to->width;
+    const double high = (double)from->height / to->height;
+    for (int j = (int)(y * high); j < from->height && j < (y + 1) * high; j++) {
+        const double part_y = fmin(j + 1.0, (y + 1) * high) - fmax(j, y * high);
+        for (int i = (int)(x * wide); i < from->width && i < (x + 1) * wide; i++) {
+            const double part_x = fmin(i + 1.0, (x + 1) * wide) - fmax(i, x * wide);
+            for (int c = 0; c < 3; c++) {
+                rgb[c] += part_x * part_y / (wide * high) * texel_at(from, i, j)[c];
+            }
+        }
+    }
+}
+
 static bool halve(const Level *from, Level *to) {
-    if (!make_level(to, (from->width + 1) / 2, (from->height + 1) / 2)) {
+    if (!make_level(to, from->width > 1 ? from->width / 2 : 1,
+                    from->height > 1 ? from->height / 2 : 1)) {
         return false;
     }
     for (int y = 0; y < to->height; y++) {
         for (int x = 0; x < to->width; x++) {
             double *rgb = to->rgb + 3 * ((size_t)y * (size_t)to->width + (size_t)x);
-            for (int c = 0; c < 3; c++) {
-                rgb[c] =
-                    0.25 *
-                    (texel_at(from, 2 * x, 2 * y)[c] + texel_at(from, 2 * x + 1, 2 * y)[c] +
-                     texel_at(from, 2 * x, 2 * y + 1)[c] + texel_at(from, 2 * x + 1, 2 * y + 1)[c]);
-            }
+            rgb[0] = rgb[1] = rgb[2] = 0.0;
+            add_area(from, to, x, y, rgb);
         }
     }
     return true;
@@ -89,12 +101,15 @@ static double spline(double x) {
     return a < 2.0 ? pow(2.0 - a, 3.0) / 6.0 : 0.0;
 }
 
-static void add_level(const Level *level, double x, double y, double share, double rgb[3]) {
-    const int first_x = (int)floor(x - 0.5) - 1;
-    const int first_y = (int)floor(y - 0.5) - 1;
+// u, v: fractions of the picture's width and height.
+static void add_level(const Level *level, double u, double v, double share, double rgb[3]) {
+    const double x = u * level->width - 0.5;
+    const double y = v * level->height - 0.5;
+    const int first_x = (int)floor(x) - 1;
+    const int first_y = (int)floor(y) - 1;
     for (int j = first_y; j < first_y + 4; j++) {
         for (int i = first_x; i < first_x + 4; i++) {
-            const double weight = share * spline(x - 0.5 - i) * spline(y - 0.5 - j);
+            const double weight = share * spline(x - i) * spline(y - j);
             for (int c = 0; c < 3; c++) {
                 rgb[c] += weight * texel_at(level, i, j)[c];
             }
@@ -108,11 +123,9 @@ void dip_reference_backdrop_read(const DipRefBackdrop *backdrop, const DipRefPos
     const double level = fmin(fmax(wanted, 0.0), backdrop->count - 1.0);
     const int finer = (int)level;
     const int coarser = finer + 1 < backdrop->count ? finer + 1 : finer;
-    const double x = place->x / 256.0;
-    const double y = place->y / 256.0;
+    const double u = place->x / (256.0 * backdrop->levels[0].width);
+    const double v = place->y / (256.0 * backdrop->levels[0].height);
     rgb[0] = rgb[1] = rgb[2] = 0.0;
-    add_level(&backdrop->levels[finer], ldexp(x, -finer), ldexp(y, -finer), 1.0 - (level - finer),
-              rgb);
-    add_level(&backdrop->levels[coarser], ldexp(x, -coarser), ldexp(y, -coarser), level - finer,
-              rgb);
+    add_level(&backdrop->levels[finer], u, v, 1.0 - (level - finer), rgb);
+    add_level(&backdrop->levels[coarser], u, v, level - finer, rgb);
 }

@@ -35,22 +35,24 @@ static double least_level(int width) {
     return log2_of(width) - log2_of(DIP_BACKDROP_WIDTH);
 }
 
+static int size_of(int size, int level) {
+    return size >> level > 1 ? size >> level : 1;
+}
+
 // Lays out the levels of a picture. Returns the number of texels of all.
 static size_t lay_out(DipBackdrop *levels, int width, int height) {
     size_t texels = 0;
-    int count = 0;
-    for (;; count++) {
-        levels->first[count] = (int32_t)texels;
-        levels->width[count] = width;
-        levels->height[count] = height;
-        texels += (size_t)width * (size_t)height;
-        if (width == 1 && height == 1) {
-            break;
-        }
-        width = (width + 1) / 2;
-        height = (height + 1) / 2;
+    bool last = false;
+    for (int k = 0; !last; k++) {
+        levels->first[k] = (int32_t)texels;
+        levels->width[k] = size_of(width, k);
+        levels->height[k] = size_of(height, k);
+        levels->across[k] = (float)levels->width[k] / (float)width;
+        levels->down[k] = (float)levels->height[k] / (float)height;
+        levels->count = k + 1;
+        texels += (size_t)levels->width[k] * (size_t)levels->height[k];
+        last = levels->width[k] == 1 && levels->height[k] == 1;
     }
-    levels->count = count + 1;
     return texels;
 }
 
@@ -124,28 +126,58 @@ static int lesser(int a, int b) {
     return a < b ? a : b;
 }
 
+// The texels of a finer level that a texel overlaps along an axis, and by how much, in whole
+// numbers whose sum is `total`.
+typedef struct Overlaps {
+    int first;
+    int count;
+    uint32_t part[3];
+    uint32_t total;
+} Overlaps;
+
+// size: of the finer level. If it is odd, 2 m + 1, texel i reaches from 2 i + i / m on over 2 + 1 /
+// m texels.
+static Overlaps overlaps_of(int size, int i) {
+    const uint32_t half = (uint32_t)size / 2;
+    if (size == 1) {
+        return (Overlaps){0, 1, {1}, 1};
+    }
+    if (size % 2 == 0) {
+        return (Overlaps){2 * i, 2, {1, 1}, 2};
+    }
+    return (Overlaps){2 * i, 3, {half - (uint32_t)i, half, (uint32_t)i + 1}, (uint32_t)size};
+}
+
+// Returns the mean, rounded, halves up.
+static uint32_t mean_of(uint64_t sum, uint64_t total) {
+    return (uint32_t)(total == 4 ? (sum + 2) >> 2 : (2 * sum + total) / (2 * total));
+}
+
 static void halve_row(const Filling *filling, int y) {
     const DipBackdrop *levels = &filling->backdrop->levels;
     const int finer = filling->level - 1;
-    const int width = levels->width[finer];
+    const size_t stride = 2 * (size_t)levels->width[finer];
     const int32_t *from = levels->texels + 2 * (size_t)levels->first[finer];
-    const size_t stride = 2 * (size_t)width;
-    const int32_t *upper = from + (size_t)(2 * y) * stride;
-    const int32_t *lower = from + (size_t)lesser(2 * y + 1, levels->height[finer] - 1) * stride;
+    const Overlaps down = overlaps_of(levels->height[finer], y);
     int32_t *row = levels->texels + 2 * ((size_t)levels->first[finer + 1] +
                                          (size_t)y * (size_t)levels->width[finer + 1]);
     for (int x = filling->region.x0; x < filling->region.x1; x++) {
-        const size_t left = 4 * (size_t)x;
-        const size_t right = 2 * (size_t)lesser(2 * x + 1, width - 1);
-        const int32_t *const texels[4] = {upper + left, upper + right, lower + left, lower + right};
-        uint32_t sum[3] = {2, 2, 2}; // for rounding, halves up
-        for (int k = 0; k < 4; k++) {
-            const uint32_t words[2] = {(uint32_t)texels[k][0], (uint32_t)texels[k][1]};
-            sum[0] += words[0] & 65535U;
-            sum[1] += words[0] >> 16;
-            sum[2] += words[1];
+        const Overlaps across = overlaps_of(levels->width[finer], x);
+        uint64_t sum[3] = {0, 0, 0};
+        for (int j = 0; j < down.count; j++) {
+            const int32_t *texels =
+                from + (size_t)(down.first + j) * stride + 2 * (size_t)across.first;
+            for (int i = 0; i < across.count; i++) {
+                const uint64_t part = (uint64_t)down.part[j] * across.part[i];
+                const uint32_t words[2] = {(uint32_t)texels[2 * i], (uint32_t)texels[2 * i + 1]};
+                sum[0] += part * (words[0] & 65535U);
+                sum[1] += part * (words[0] >> 16);
+                sum[2] += part * words[1];
+            }
         }
-        const uint32_t light[3] = {sum[0] >> 2, sum[1] >> 2, sum[2] >> 2};
+        const uint64_t total = (uint64_t)down.total * across.total;
+        const uint32_t light[3] = {mean_of(sum[0], total), mean_of(sum[1], total),
+                                   mean_of(sum[2], total)};
         store(row + 2 * (size_t)x, light);
     }
 }
@@ -164,30 +196,47 @@ static void fill_rows(void *context, int job, int worker) {
     }
 }
 
+// Finds the texels of a level that a range of pixels touches. size: of the picture.
+static void find_part(int size, int texels, int begin, int end, int *first, int *last) {
+    *first = (int)((int64_t)begin * texels / size);
+    *last = (int)(((int64_t)end * texels + size - 1) / size);
+}
+
 uint64_t dip_backdrop_fill(const DipBackdropParts *backdrop, const DipTargetRegion *region,
                            DipPool *pool) {
-    Filling filling = {.backdrop = backdrop, .region = *region};
+    const DipBackdrop *levels = &backdrop->levels;
+    Filling filling = {.backdrop = backdrop};
     DipTargetRegion *part = &filling.region;
     uint64_t texels = 0;
-    for (; filling.level < backdrop->levels.count; filling.level++) {
+    for (; filling.level < levels->count; filling.level++) {
+        find_part(levels->width[0], levels->width[filling.level], region->x0, region->x1, &part->x0,
+                  &part->x1);
+        find_part(levels->height[0], levels->height[filling.level], region->y0, region->y1,
+                  &part->y0, &part->y1);
         const int rows = part->y1 - part->y0;
         texels += (uint64_t)(part->x1 - part->x0) * (uint64_t)rows;
         dip_pool_run(pool, (rows + ROWS - 1) / ROWS, fill_rows, &filling);
-        *part =
-            (DipTargetRegion){part->x0 / 2, part->y0 / 2, (part->x1 + 1) / 2, (part->y1 + 1) / 2};
     }
     return texels;
 }
 
-// A read uses two levels, and in the coarser one up to 2.5 texels on each side. Two more pixels
+static int texel_size(int size, int level) {
+    const int texels = size_of(size, level);
+    return (size + texels - 1) / texels;
+}
+
+// A read uses two levels, and in the coarser one up to 2.5 texels on each side. Where sizes are
+// odd, a texel also has a part of what lies beside it, over less than its own size. Two more pixels
 // allow for rounding.
-int dip_backdrop_margin(int width, double roughness) {
+int dip_backdrop_margin(int width, int height, double roughness) {
     const double level = least_level(width) + log2_of(DIP_BACKDROP_WIDTH) * roughness;
     int coarser = 1;
     while (coarser < DIP_BACKDROP_LEVELS - 1 && level >= coarser) {
         coarser++;
     }
-    return (3 << coarser) + 2;
+    const int across = texel_size(width, coarser);
+    const int down = texel_size(height, coarser);
+    return 4 * (across > down ? across : down) + 2;
 }
 
 uint64_t dip_backdrop_bytes(const DipBackdropParts *backdrop) {

@@ -1,6 +1,6 @@
 // The backdrop of rough glass: a picture of the surfaces that are not blended, and its levels. Each
-// level has half the width and height of the one before it, rounded up; a texel is the mean of 2x2
-// texels, of which those beyond the border repeat the last ones. Private to the renderer.
+// level has half the width and height of the one before it, rounded down; a texel is the mean of
+// the area that it covers in the level before. Private to the renderer.
 #ifndef DIP_RENDERER_SCENE_DRAW_BACKDROP_H
 #define DIP_RENDERER_SCENE_DRAW_BACKDROP_H
 
@@ -29,14 +29,14 @@ bool dip_backdrop_make(DipBackdropParts *backdrop, int width, int height, DipErr
 void dip_backdrop_free(DipBackdropParts *backdrop);
 
 // Fills the levels from the pixels of a region of the target, on the pool or, if the pool is NULL,
-// on the caller's thread. Returns the number of texels. Texels that also cover other pixels are not
-// valid.
+// on the caller's thread. Returns the number of texels. Texels that also cover other pixels, or
+// have some within their own size on either side, are not valid.
 uint64_t dip_backdrop_fill(const DipBackdropParts *backdrop, const DipTargetRegion *region,
                            DipPool *pool);
 
 // Returns how many pixels around its own position a fragment of a surface of this roughness, 0..1,
-// may read, in a picture of this width.
-int dip_backdrop_margin(int width, double roughness);
+// may read, in a picture of this size.
+int dip_backdrop_margin(int width, int height, double roughness);
 
 // Returns the memory of a backdrop, in bytes.
 uint64_t dip_backdrop_bytes(const DipBackdropParts *backdrop);

@@ -7,15 +7,17 @@
 
 enum { DIP_BACKDROP_LEVELS = 14 }; // a picture of DIP_MAX_TARGET_SIZE pixels has as many
 
-// Level 0 is the picture, and each further level has half the width and height, rounded up. A texel
-// has three channels of 16-bit linear light in two words: red and green in the low and the high
-// half of the first, and blue in the second.
+// Level 0 is the picture, and level k has its width and height divided by 2^k, rounded down to 1 or
+// more. A texel has three channels of 16-bit linear light in two words: red and green in the low
+// and the high half of the first, and blue in the second.
 typedef struct DipBackdrop {
     int32_t *texels;
     int count;                           // levels; the last one has 1x1 texels
     int32_t first[DIP_BACKDROP_LEVELS];  // index of the level's first texel
     int32_t width[DIP_BACKDROP_LEVELS];  // in texels
     int32_t height[DIP_BACKDROP_LEVELS]; // in texels
+    float across[DIP_BACKDROP_LEVELS];   // texels of the level per pixel of the picture
+    float down[DIP_BACKDROP_LEVELS];
     // A surface of roughness r reads the level least_level + r * level_range, bounded by the first
     // and the last level.
     float least_level;

@@ -35,10 +35,10 @@ VEC_INLINE Taps find_taps(Vf position, Vi size) {
 // Adds a share of what a level has at a position (x, y) of the picture.
 VEC_INLINE void add_backdrop_level(const DipBackdrop *backdrop, Vi level, Vf x, Vf y, Vf share,
                                    Vf sum[3]) {
-    const Vf scale = vf_bits((127 - level) << 23); // 2^-level
     const Vi width = vi_gather(backdrop->width, level);
-    const Taps across = find_taps(x * scale, width);
-    const Taps down = find_taps(y * scale, vi_gather(backdrop->height, level));
+    const Taps across = find_taps(x * vf_gather(backdrop->across, level), width);
+    const Vi height = vi_gather(backdrop->height, level);
+    const Taps down = find_taps(y * vf_gather(backdrop->down, level), height);
     const Vi first = vi_gather(backdrop->first, level);
     for (int j = 0; j < 4; j++) {
         const Vi row = first + down.at[j] * width;

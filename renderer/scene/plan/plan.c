@@ -389,7 +389,7 @@ static bool find_backdrop_region(const DipPlanInput *input, DipTargetRegion *reg
     for (int i = 0; i < input->scene->object_count; i++) {
         if (scatters(input->scene, i) && object_in_view(input->scene, input->seen, i)) {
             const DipPbrUniforms *pbr = mesh_of(input->scene, i)->full_layout.pbr;
-            const int own = dip_backdrop_margin(input->backdrop_width,
+            const int own = dip_backdrop_margin(input->backdrop_width, input->backdrop_height,
                                                 (double)pbr->roughness * (double)pbr->scattering);
             static const float in_world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
             double corners[8][3];

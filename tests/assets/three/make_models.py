@@ -18,7 +18,7 @@ MODELS = (surfaces.align, surfaces.align_lit, surfaces.metal_rough, surfaces.met
           surfaces.transform, surfaces.wrap, surfaces.nearest, surfaces.sets,
           surfaces.vertex_colour, surfaces.vertex_alpha, surfaces.normal_map, surfaces.unlit,
           surfaces.specular_ior, surfaces.clearcoat, surfaces.sheen, surfaces.transmission,
-          surfaces.glass,
+          surfaces.glass, surfaces.rough_glass,
           meshes.double_sided, meshes.no_normals, meshes.sparse, meshes.skin, meshes.morph,
           meshes.animation, meshes.instancing, meshes.torus)
 

@@ -313,6 +313,26 @@ def transmission():
     return m, look((0, 0, 4.5), (0, 0, 0)), 38
 
 
+def rough_glass():
+    m = Model("rough_glass",
+              "The board is seen through panes of roughness 0.2, 0.35 (tinted) and 0.5; 0.7, 0.5 with "
+              "an ior of 1.25, and 0.4 of metal 0.5. The rougher, the more blurred; an ior below 1.5 "
+              "blurs less.")
+    m.put(quad(6, 3), m.textured(m.texture(checker(12, 192, (250, 250, 250), (160, 30, 30)))),
+          (0, 0, -1))
+    full = {"KHR_materials_transmission": {"transmissionFactor": 1.0}}
+    thin = {**full, "KHR_materials_ior": {"ior": 1.25}}
+    panes = [m.material((1, 1, 1, 1), 0.0, 0.2, ext=full),
+             m.material((.2, .9, .4, 1), 0.0, 0.35, ext=full),
+             m.material((1, 1, 1, 1), 0.0, 0.5, ext=full, alphaMode="BLEND"),
+             m.material((.9, .9, .9, 1), 0.0, 0.7, ext=full),
+             m.material((.7, .8, 1, 1), 0.0, 0.5, ext=thin),
+             m.material((.9, .7, .4, 1), 0.5, 0.4, ext=full)]
+    for k, pane in enumerate(panes):
+        m.put(quad(.9, .9), pane, (1.05 * (k % 3 - 1), .5 - k // 3, 0))
+    return m, look((0.3, 0.2, 4.5), (0, 0, 0)), 38
+
+
 def glass():
     m = Model("glass",
               "The board is seen through smooth panes: clear, tinted, half as transmissive with a "
