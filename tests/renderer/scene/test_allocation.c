@@ -117,11 +117,22 @@ static void settings_that_are_off_hold_no_byte(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// Makes a scene of the catalogue, or of DIP_TEST_SCENE_COUNT one with rough glass.
+static void make_scene(int kind, DipTestScene *scene) {
+    const bool glass = kind == DIP_TEST_SCENE_COUNT;
+    dip_test_scene_make(scene, glass ? DIP_TEST_SCENE_metal_gloss : (DipTestSceneKind)kind);
+    for (int i = 1; glass && i < scene->def.material_count; i++) {
+        scene->materials[i].surface = DIP_SURFACE_BLENDED;
+        scene->pbrs[i].roughness = 0.5f;
+        scene->pbrs[i].transmission = scene->pbrs[i].scattering = 1.0f;
+    }
+}
+
 static void frames_after_the_first_allocate_nothing(void **state) {
     (void)state;
-    for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
+    for (int kind = 0; kind <= DIP_TEST_SCENE_COUNT; kind++) {
         static DipTestScene scene;
-        dip_test_scene_make(&scene, (DipTestSceneKind)kind);
+        make_scene(kind, &scene);
         const int64_t before = dip_allocation_count();
         DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
         DipPool *pool = dip_pool_create(2, NULL);
@@ -146,6 +157,8 @@ static void frames_after_the_first_allocate_nothing(void **state) {
         // The textures are compressed in advance, so that no frame has to make compressed textures.
         assert_true(dip_scene_compress_textures(fast, pool, NULL));
         assert_int_equal(draw_everything(panes, fast, scene.pose, true), 0);
+        assert_true(dip_renderer_draw(panes[0], fast, &scene.pose, 0, &frame, NULL));
+        assert_true(frame.effects.scattering.run == (kind == DIP_TEST_SCENE_COUNT));
         // The first frame without instancing creates a mesh for each object.
         (void)draw_everything(panes, fast, scene.pose, false);
         assert_int_equal(draw_everything(panes, fast, scene.pose, false), 0);

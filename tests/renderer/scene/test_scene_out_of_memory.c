@@ -278,6 +278,34 @@ static void check_pair(void *context, bool succeeded) {
     }
 }
 
+// Turns a scene of metallic-roughness surfaces into one with rough glass.
+static void begin_glass(Fixture *fixture) {
+    begin(fixture, DIP_TEST_SCENE_metal_gloss);
+    DipTestScene *made = &fixture->made;
+    for (int i = 1; i < made->def.material_count; i++) {
+        made->materials[i].surface = DIP_SURFACE_BLENDED;
+        made->pbrs[i].roughness = 0.5f;
+        made->pbrs[i].transmission = made->pbrs[i].scattering = 1.0f;
+    }
+    draw_truth(fixture, NULL, fixture->before);
+    assert_true(fixture->frames[0].effects.scattering.run);
+}
+
+// The backdrop of rough glass is made in the first frame, too.
+static void failed_frame_with_rough_glass_leaves_the_renderer_usable(void **state) {
+    (void)state;
+    static Fixture fixture;
+    begin_glass(&fixture);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "first frame with rough glass",
+                                              .context = &fixture,
+                                              .prepare = must_make_panes,
+                                              .run = draw_one,
+                                              .check = check_frame,
+                                              .finish = free_panes,
+                                              .short_count = 27});
+    end(&fixture);
+}
+
 // The first frame of a scene allocates the memory of all later frames.
 static void failed_frame_leaves_the_renderer_usable(void **state) {
     (void)state;
@@ -568,6 +596,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(environments_are_blurred_or_no_scene_is_made),
         cmocka_unit_test(renderer_is_made_whole_or_not_at_all),
         cmocka_unit_test(failed_frame_leaves_the_renderer_usable),
+        cmocka_unit_test(failed_frame_with_rough_glass_leaves_the_renderer_usable),
         cmocka_unit_test(failed_change_of_a_setting_can_be_taken_back),
         cmocka_unit_test(failed_shadow_map_can_be_made_again),
         cmocka_unit_test(meshes_are_copied_for_all_objects_or_for_none),
