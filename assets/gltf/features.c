@@ -28,7 +28,7 @@ static const Extension extensions[] = {
     {"KHR_materials_pbrSpecularGlossiness", NULL},
     {"KHR_materials_sheen", NULL},
     {"KHR_materials_specular", NULL},
-    {"KHR_materials_transmission", "is drawn as blending, without refraction"},
+    {"KHR_materials_transmission", "is drawn without refraction"},
     {"KHR_materials_unlit", NULL},
     {"KHR_materials_variants", "is not drawn: the surfaces have the materials of the first look"},
     {"KHR_mesh_quantization", NULL},
