@@ -358,7 +358,7 @@ static void work_table(const Tab *tab, DipRect area) {
     put_row(tab, area, WORK_ROWS, "before tiles", "%.2f ms", geometry_ms, BY_FACTOR);
     char text[96];
     snprintf(text, sizeof text,
-             mirrored_ms > 0.0 ? "Not in tiles: geometry, %.1f ms of reflection"
+             mirrored_ms > 0.0 ? "Not in tiles: geometry, other passes %.1f ms"
                                : "Not in the tiles: geometry.",
              mirrored_ms);
     put(tab, NOTE, dip_style_dim, area, 6 * ROW + 4, text);

@@ -1,10 +1,10 @@
 // Makes the maps: pictures over each pane that show where the pane's error lies and where its work
 // goes.
 //
-// The FLIP map comes from the thread that measures errors (error_thread.h). For the other maps, the
-// maps have a painter of their own, which draws each pane's frame again while camera and scene
-// rest. This painter records the tiles, or draws in mip colours. The panes' own frames are drawn as
-// always and take no more time.
+// The FLIP map comes from the thread that measures errors (error_thread.h). The other maps come
+// from a separate painter (DipMaps.painter), which draws each pane's frame again while camera and
+// scene rest. This painter records the tiles, or draws in mip colours. The panes' own frames are
+// drawn as always and take no more time.
 #ifndef DIP_APP_PREVIEW_TOOLS_MAPS_H
 #define DIP_APP_PREVIEW_TOOLS_MAPS_H
 
@@ -32,8 +32,9 @@ typedef struct DipMapWork {
     double *ms;             // Median time of each tile, on the worker that drew it.
     uint8_t *mixed;         // Copy of DipFrameTiles.mixed: the pixels whose samples differ.
     uint8_t *mips;          // The frame in mip colours, rows packed.
-    double geometry_ms;     // Time that the last draw took for geometry, before the tiles.
-    double mirrored_ms;     // Time that the last draw took for the mirrored scene in a reflection.
+    double geometry_ms;     // Time that the last draw took for the geometry of the main pass.
+    double mirrored_ms;     // Time that the last draw took for the passes before the main pass: the
+                            // shadow map, and the mirrored scene in a reflection.
 } DipMapWork;
 
 typedef enum DipMapOver {
@@ -77,7 +78,7 @@ typedef struct DipMapPicture {
 } DipMapPicture;
 
 // The memory of the maps; zero-initialise. While the window is drawn, the maps' tab sets `wanted`.
-// The tab reads `reading` and `errors`, and keeps its choices in `view`.
+// The tab reads `errors`, and keeps its choices in `view`.
 typedef struct DipMaps {
     DipMap wanted;       // The map that the window showed when it was drawn last.
     DipPainter *painter; // Draws the panes' frames again; NULL until a map needs it.
