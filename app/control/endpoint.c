@@ -66,10 +66,11 @@ void dip_wire_close(DipWire *wire) {
 
 // --- standard input and output -------------------------------------------------------------------
 
-// Opens standard output once more, so that writing to it never waits. Descriptors of the same open
-// file share the flag O_NONBLOCK: if Diptych set it on the descriptor that it was given, writes of
-// the parent process would no longer wait either. Sockets cannot be opened again, and ordinary
-// files need not be, so these are only duplicated.
+// Opens standard output once more, so that writing to it does not wait. Descriptors of the same
+// open file share the flag O_NONBLOCK: if Diptych set it on the descriptor that it was given,
+// writes of the parent process would no longer wait either. Sockets cannot be opened again, and
+// ordinary files need not be, so these are only duplicated. A pipe or device that cannot be opened
+// again is duplicated, too; writing to it may then wait.
 static int open_output(void) {
     struct stat status;
     int output = -1;
@@ -98,9 +99,9 @@ bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *
     wire->sends = fstat(wire->out, &status) == 0 && S_ISSOCK(status.st_mode);
     if (wire->sends && fstat(STDIN_FILENO, &input) == 0 && input.st_dev == status.st_dev &&
         input.st_ino == status.st_ino) {
-        // Standard input and output are one socket, which the parent process has made with
-        // socketpair. Both reading and writing use the duplicate of this socket that open_output
-        // made.
+        // Standard input and output are one socket, for example one end of a socketpair that the
+        // parent process has made. Both reading and writing use the duplicate of this socket that
+        // open_output made.
         wire->in = wire->out;
         wire->socket = true;
     }

@@ -22,8 +22,8 @@ enum {
     TICK_ROOM = 46 // Least distance between two labels of the x axis.
 };
 
-// The palette of Okabe and Ito without its yellow. Colour-blind readers can tell these colours
-// apart. Lines after the sixth use the colours again and are dashed.
+// Six of the eight colours of Okabe and Ito's palette; orange and yellow are left out. Colour-blind
+// readers can tell these colours apart. Lines after the sixth use the colours again and are dashed.
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73",
                                       "#cc79a7", "#56b4e9", "#000000"};
 enum { COLOUR_COUNT = sizeof colours / sizeof *colours };
