@@ -66,8 +66,8 @@ typedef struct DipBenchSource {
 //
 // Before any time is taken, the warm-up draws each frame of each combination once. The samples of
 // the warm-up, with hashes and counters, become the results' `first` samples. Two sources take
-// turns after every frame. A pause of one millisecond before each timed frame then lets the other
-// source's threads go to sleep. Progress goes to standard error.
+// turns after every frame, and a pause of one millisecond before each of their timed frames lets
+// the other source's threads go to sleep. Progress goes to standard error.
 //
 // Fails if draw() fails, with DIP_ERROR_MEMORY, and with DIP_ERROR_RUNTIME if the user presses
 // Ctrl-C or if the first source's pictures differ between instruction sets or numbers of threads.

@@ -1,4 +1,4 @@
-// Makes the five plots of time (plots.h). Each line of a plot is a series of points.
+// Writes up to five plots of the time (plots.h). Each line of a plot is a series of points.
 #include "app/bench/plots.h"
 
 #include "app/cli/machine.h"

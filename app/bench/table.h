@@ -12,7 +12,8 @@ void dip_bench_print_heading(const DipBenchPlan *plan, const DipSession *session
 
 // Prints the median, 95th percentile and minimum time of each combination in each stage, in
 // milliseconds. Also prints for each combination the ratio of its mean time of a frame to that of
-// the plan's base and, if the number of threads varies, its speed-up over the fewest threads.
+// the plan's base and, if the number of threads varies, its speed-up over the same combination with
+// the fewest threads.
 void dip_bench_print_times(const DipBenchResult *result, FILE *out);
 
 // Prints the means of the work counters over the frames, for each combination with the first
