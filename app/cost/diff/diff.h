@@ -1,8 +1,8 @@
 // Declares the parts of `diptych cost diff`, which finds what got slower or worse from one report
 // or program to another.
 //
-// A comparison has two sides, A (side 0) and B (side 1). Each is a report or a program. Each row of
-// the comparison is a combination of settings on a camera path that both sides have, with the
+// A comparison has two sides, A (side 0) and B (side 1). A side is a report or a program. Each row
+// of the comparison is a combination of settings on a camera path that both sides have, with the
 // values of some quantities on both sides. A quantity is an error, a counter or the number of
 // pictures that differ. Quantities are exact, so any difference has a cause. A row also has times,
 // which are noisy and have intervals.
@@ -69,7 +69,7 @@ enum {
 enum {
     DIP_COST_DIFF_MAX_NOTES = 32,
     DIP_COST_DIFF_NOTE = 320,
-    // The stages of a frame; the total is not one of them.
+    // Number of stages of a frame, without the total.
     DIP_COST_DIFF_STAGES = DIP_BENCH_STAGE_total
 };
 
@@ -88,11 +88,12 @@ typedef struct DipCostDiffRow {
                                                     // baseline.
     double ms[2];                                   // Mean time of a frame.
     DipEstimate ratios[2];                          // Reports only: time / the baseline's time.
-    // For programs B's time / A's time, for reports B's ratio / A's ratio, with the interval.
+    // The change from A to B with its 95 % interval: B's time / A's time for programs, B's ratio /
+    // A's ratio for reports.
     DipEstimate change;
     // The change is surely greater than surely_above and less than surely_below. For programs,
-    // these are the ends of its 95 % interval. For reports, they lie so far apart that the bounds
-    // of all rows hold together with a probability of 95 %.
+    // these two bounds are the ends of the change's 95 % interval. For reports, they lie so far
+    // apart that the bounds of all rows hold together with a probability of 95 %.
     double surely_above;
     double surely_below;
     // Programs only, for each stage of a frame: 1 + (B's time in the stage - A's time in it) / A's
@@ -101,8 +102,8 @@ typedef struct DipCostDiffRow {
     DipCostDiffMark mark;
 } DipCostDiffRow;
 
-// What the times come from. If one side is a report and the other a program, the program measures
-// a report, too, and the kind is DIP_COST_DIFF_REPORTS.
+// What the times come from. If one side is a report and the other a program, the program's
+// measurements become a second report, and the kind is DIP_COST_DIFF_REPORTS.
 typedef enum DipCostDiffKind {
     DIP_COST_DIFF_REPORTS, // Ratios to the baseline, measured in two runs.
     DIP_COST_DIFF_PROGRAMS // Two programs that took turns.
@@ -117,7 +118,8 @@ typedef struct DipCostDiff {
                                // differ in scene or size.
     bool some_rows;    // True if one side is a program that measured only some rows of the other
                        // side's report.
-    bool same_machine; // True if the sides' machines, threads and instruction sets are the same.
+    bool same_machine; // True if both sides have the same processor, number of threads and
+                       // instruction set. Always true for two programs.
     bool has_times;    // True if the times may be compared.
     DipCostVerdict verdicts[2]; // How quiet each side's machine was; for programs both are equal.
     char reasons[2][DIP_COST_REASON];
@@ -128,17 +130,17 @@ typedef struct DipCostDiff {
     int note_count;
     char cause[512];   // What dip_cost_diff_explain writes; "" for reports and if no row is slower.
     double limit;      // A row is slower if its change is surely greater than this.
-    double fail_over;  // The limit beyond which times and errors fail; 0 if there is none.
+    double fail_over;  // 1.03 for --fail-over 3%; 0 without this option.
     int slower;        // Number of rows that are marked as slower.
     int faster;        // Number of rows that are marked as faster.
-    int failed_times;  // Number of rows that are slower beyond fail_over.
-    int failed_errors; // Number of rows with an error that grew beyond fail_over.
+    int failed_times;  // Number of rows whose change is surely greater than fail_over.
+    int failed_errors; // Number of rows with an error that grew by more than fail_over - 1.
 } DipCostDiff;
 
-// Appends a note, or ignores it if there are too many.
+// Appends a note. Does nothing if there are DIP_COST_DIFF_MAX_NOTES already.
 void dip_cost_diff_note(DipCostDiff *diff, const char *format, ...) DIP_PRINTF(2, 3);
 
-// Reports that memory ran out. Returns false.
+// Fills *err with DIP_ERROR_MEMORY and returns false.
 bool dip_cost_diff_no_memory(DipError *err);
 
 // Frees the rows.
@@ -172,7 +174,7 @@ void dip_cost_diff_mark(DipCostDiff *diff);
 typedef struct DipCostDiffChange {
     int quantity;
     int rows;     // Number of rows in which the quantity differs.
-    int greatest; // Index of the row with the greatest change.
+    int greatest; // Index of the row whose growth has the greatest absolute value.
     double least; // Least growth in these rows (dip_cost_diff_growth).
     double most;  // Greatest growth in these rows.
 } DipCostDiffChange;
@@ -233,23 +235,24 @@ bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTi
 
 // --- comparing -----------------------------------------------------------------------------------
 
-// Returns whether a side's machine was too busy for its times to be believed.
+// Returns whether times are compared, but a side's machine was too busy for its times to be
+// believed.
 bool dip_cost_diff_is_busy(const DipCostDiff *diff);
 
-// Compares two reports. The names, limits and some_rows of *diff must be filled in before. Fails
-// with DIP_ERROR_MEMORY. On success the caller frees the comparison.
+// Compares two reports. The members names, limit, fail_over and some_rows of *diff must be filled
+// in before. Fails with DIP_ERROR_MEMORY. On success the caller frees the comparison.
 bool dip_cost_diff_reports(const DipCostReport *a, const DipCostReport *b, DipCostDiff *diff,
                            DipError *err);
 
 // Draws the settings of `arguments` with both programs, which take turns at every frame, and fills
-// in the comparison. Fails if a program does not answer, if the user presses Ctrl-C or if memory
-// runs out. On success the caller frees the comparison.
+// in the comparison. Fails if a program does not start or does not answer, if the user presses
+// Ctrl-C or if memory runs out. On success the caller frees the comparison.
 bool dip_cost_diff_programs(const DipCostDiffArguments *arguments, const char *const programs[2],
                             DipCostDiff *diff, DipError *err);
 
 // Measures rows of a report again with another program: the rows of the report's first path whose
 // settings `arguments` lists, except the baseline. Makes a new report with the baseline and these
-// rows. The new report has no FLIP and no other measured errors. Each row's ratio is the row's time
+// rows. The new report has no errors, only times and counters. Each row's ratio is the row's time
 // divided by the baseline's time in the same program. Fails as dip_cost_diff_programs does, and
 // with DIP_ERROR_MISSING if the report has no times or none of these rows. On success the caller
 // frees the new report.

@@ -31,6 +31,7 @@ bool dip_cause_is_same_work(const DipCauseData *data, int a, int b) {
 
 // Finds the kind of work that explains most of the sum of squares of the times, with a positive
 // price. If several kinds cannot be told apart (dip_cause_is_same_work), returns the first of them.
+// If there is no such kind, the returned kind is -1.
 static DipCause best_fit(const DipCauseData *data, const double *times) {
     DipCause best = {.kind = -1};
     const double squares = dot(times, times, data->rows);

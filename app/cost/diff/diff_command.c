@@ -22,9 +22,9 @@ static const double least_limit = 1.01;
 
 #define FIELD(name) offsetof(DipCostDiffArguments, name)
 
-// Together, these sets use several samples per pixel (aa), adaptive AA, which shades clipped
-// surfaces once per group of samples (aaa, asd), anisotropic filtering (af, aaf) and compressed
-// textures (opt).
+// Together, these sets use several samples per pixel (aa), adaptive AA (aaa, asd), anisotropic
+// filtering (af, aaf) and compressed textures (opt). Adaptive AA shades alpha-clipped surfaces once
+// per group of samples.
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
                                    "aa=8,aaa=on,asd=2,af=16,aaf=on";
 
@@ -122,7 +122,8 @@ static const char *program_of(const char *name) {
 }
 
 // Compares two reports, two programs, or a report and a program. In the last case, the program
-// measures rows of the report again.
+// measures the baseline and the settings of --sets again, on the report's first path
+// (dip_cost_diff_measure_report).
 static bool compare(const DipCostDiffArguments *arguments, DipCostDiff *diff, DipError *err) {
     const char *programs[2];
     DipCostReport reports[2] = {{.rows = NULL}, {.rows = NULL}};

@@ -1,4 +1,5 @@
-// Finds the quantities that differ in the same rows, and describes these rows in a few words.
+// Groups the quantities that differ: all errors together, and other quantities that differ in the
+// same rows. Describes the rows of each group in a few words.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>
@@ -59,8 +60,9 @@ static void consider(Search *search, const Condition *condition) {
     }
 }
 
-// Considers a condition by itself. Then adds one more term to it: in turn each step of each setting
-// that comes after the condition's last setting. Goes on in the same way up to MOST_TERMS settings.
+// Considers a condition, and then all its extensions to at most MOST_TERMS settings. Each added
+// setting comes after the condition's last setting, and is added with each of its steps and with
+// NOT_DEFAULT.
 static void consider_settings(Search *search, Condition condition) {
     consider(search, &condition);
     const int last = condition.count++;
@@ -150,7 +152,8 @@ static bool mark_rows(const DipCostDiff *diff, int quantity, bool *rows) {
     return any;
 }
 
-// Returns the index of the group that a quantity belongs to, or `count` if it needs a new group.
+// Returns the index of a quantity's group, or `count` if the quantity needs a new group. All errors
+// share one group. Other quantities share a group if they differ in the same rows.
 static int find_group(const DipCostDiffGroup *groups, int count, const bool *group_rows,
                       const bool *rows, int quantity, int row_count) {
     for (int g = 0; g < count; g++) {
