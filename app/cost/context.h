@@ -83,7 +83,8 @@ bool dip_cost_context_truth(DipCostContext *cost, int path, int viewpoint, int f
                             DipError *err);
 
 // Finds the folder of the cached truths: `given` (--cache) if it is not NULL, otherwise the user's
-// cache folder. Makes the folder. Writes "" if there is no cache.
+// cache folder (dip_truth_default_folder). Makes the folder, and fails if this is not possible.
+// Writes "" if `given` is "" or if the user has no cache folder; truths are then not cached.
 bool dip_cost_find_cache(const char *given, char folder[PATH_MAX], DipError *err);
 
 // Writes cost.html, cost.csv and cost.json into a folder that exists. The source draws the pictures

@@ -27,8 +27,8 @@ static double judging_s(const DipCostContext *cost, int rows) {
 }
 
 // Returns how long it takes to time rows whose frames take `ms` milliseconds. Every row draws all
-// frames once, and one frame untimed in each round and at each start. The baseline draws as many
-// frames for each block of rows.
+// frames once, and one frame untimed in each round and at each start. For each block of rows, the
+// baseline draws as many frames as one row.
 static double timing_s(const DipCostContext *cost, int rows, int blocks, double ms) {
     const DipCostReport *report = cost->report;
     const int starts = report->options.starts;

@@ -10,16 +10,16 @@ enum {
     FRONT = 5   // Greatest number of combinations that are added for the Pareto front.
 };
 
-// 90 % of measured times lie within this many standard deviations of their predictions.
+// 90 % of the values of a normal distribution lie within this many standard deviations of its mean.
 static const double deviations = 1.645;
 
 // The 90th percentile of the misses of times (DipCostMisses.p90) is bounded to this range before
 // the standard deviation of times is computed from it.
 static const double least_miss = 0.02, most_miss = 0.25;
 
-// Least number of rows that were measured after they had been predicted whose misses are used
-// (predicted.times). With fewer rows, the misses of the rows of the training are used
-// (predicted.times_left_out).
+// The misses of rows that were measured after their prediction (predicted.times) are used if there
+// are at least this many such rows. Otherwise, the misses of the rows of the training
+// (predicted.times_left_out) are used.
 enum { ENOUGH_MISSES = 8 };
 
 DipCostAim dip_cost_aim(const DipCostReport *report, int budget) {
@@ -40,13 +40,13 @@ DipCostAim dip_cost_aim(const DipCostReport *report, int budget) {
     return aim;
 }
 
-// The probability that a standard normal variable is below x.
+// Returns the probability that a standard normal variable is below x.
 static double normal(double x) {
     return 0.5 * erfc(-x / sqrt(2.0));
 }
 
-// Returns the expected value of max(0, loss - FLIP) / loss. The logarithm of FLIP is normal, with
-// the mean log(flip) and the standard deviation `error`.
+// Returns the expected value of max(0, loss - FLIP) / loss. The logarithm of FLIP is normally
+// distributed, with the mean log(flip) and the standard deviation `error`.
 static double expected_below(double loss, double flip, double error) {
     const double z = log(loss / flip) / error;
     return normal(z) - flip / loss * exp(0.5 * error * error) * normal(z - error);
@@ -72,8 +72,8 @@ typedef struct Promising {
     DipCostModels *models;
     int *list;
     int count;
-    double *gains;  // [prediction]: an upper bound of its gain for the current budget, but for the
-                    // small rise that find_most neglects. INFINITY until the gain is computed.
+    double *gains;  // [prediction]: its gain for the current budget as it was last computed;
+                    // INFINITY before. find_most takes it as an upper bound of the gain.
     int *distances; // [measured or listed combination]: distances of the combination for which
                     // find_distances was called last.
 } Promising;
@@ -114,10 +114,10 @@ static void add(Promising *promising, int index) {
     promising->list[promising->count++] = index;
 }
 
-// Returns the combination that gains most, or -1 if none gains enough. A gain
-// changes only when another combination is listed, and then it mostly falls. So the stored gain
-// serves as an upper bound, and is computed anew only if it is at least the greatest gain found so
-// far. That a gain far above others may rise a little is neglected.
+// Returns the combination that gains most, or -1 if none gains enough. A gain changes only when
+// another combination is listed, and then it mostly falls. So the stored gain serves as an upper
+// bound, and is computed anew only if it is at least the greatest gain found so far. A gain may
+// also rise a little, if the predicted FLIP is far below the advised one; this is neglected.
 static int find_most(Promising *promising, const DipCostAim *aim) {
     double most = DIP_COST_LEAST_GAIN;
     int found = -1;

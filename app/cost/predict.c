@@ -28,8 +28,9 @@ int dip_cost_training_count(unsigned settings, int count) {
     return training < count ? training : count;
 }
 
-// Writes the terms of all stages (fit.h). Each stage has a constant term; one term, 1,
-// stands for the constant terms of all stages. Returns the number of terms.
+// Writes the terms of a combination in the model of times (fit.h): the amounts of work of all
+// stages. The constant terms of all stages are merged into the first term, whose amount is 1.
+// Returns the number of terms.
 static int design_terms(const DipCostPrediction *prediction, double terms[DESIGN_TERMS]) {
     int count = 0;
     terms[count++] = 1.0;
@@ -114,7 +115,8 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
 }
 
 // Measures the errors of the sweeps, and drops the settings whose steps all draw the same pictures.
-// Then lists the combinations of the other combined settings, and fills in their counters.
+// Then lists the combinations of the other combined settings, and fills in their counters. If the
+// list is only a sample, removes slow combinations from it.
 static bool list_combinations(DipCostContext *cost, DipError *err) {
     dip_cost_begin_phase(cost, DIP_COST_PHASE_SWEEPS);
     if (!dip_cost_judge(cost, err)) {

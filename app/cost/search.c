@@ -1,6 +1,6 @@
-// Searches all combinations of the settings for those that the models predict to be best. There may
-// be millions, so they are not listed: each is predicted, and only those that may be worth
-// measuring are kept.
+// Searches all combinations of the combined settings for those that the models predict to be best.
+// There may be millions, so they are not listed: each is predicted, and only those that may be
+// worth measuring are kept.
 #include "app/cost/steps.h"
 
 #include "app/report/combinations.h"
@@ -10,7 +10,8 @@
 #include <string.h>
 
 enum {
-    BINS = 512, // Each bin holds the best combination of a range of times, for the Pareto front.
+    BINS = 512, // Number of bins. A bin holds the best combination of a range of times, for the
+                // Pareto front.
     MIDDLE_BIN = 128 // The bin of the baseline's time.
 };
 static const double bin_width = 0.02; // Width of a bin's range, in the logarithm of time.
@@ -19,12 +20,12 @@ typedef struct Found {
     DipQuality quality;
     double ms;
     double loss; // The predicted FLIP, but at least the FLIP that the truth's noise makes.
-    double gain; // In a budget's list: what measuring it gains (dip_cost_gain).
+    double gain; // What measuring it gains (dip_cost_gain). Set only in the lists of budgets.
     bool is_found;
 } Found;
 
-// What one task found: for each budget the DIP_COST_PER_BUDGET combinations that gain most, first
-// the greatest gain, and for each range of times the best one.
+// What one task found: for each budget the DIP_COST_PER_BUDGET combinations that gain most, in
+// order of falling gain, and for each range of times the best combination.
 typedef struct Best {
     Found (*budgets)[DIP_COST_PER_BUDGET];
     Found bins[BINS];
@@ -57,7 +58,8 @@ static bool is_better(const Found *a, const Found *b) {
            (a->loss == b->loss && a->ms < b->ms); // NOLINT: exactly equal losses are meant.
 }
 
-// Puts the combination into a budget's list if its gain is greater than the least gain there.
+// Puts the combination into a budget's list if the list has room, or if the combination's gain is
+// greater than the least gain in the list.
 static void insert(Found list[DIP_COST_PER_BUDGET], const Found *found) {
     int at = DIP_COST_PER_BUDGET;
     while (at > 0 && (!list[at - 1].is_found || found->gain > list[at - 1].gain)) {
@@ -129,9 +131,9 @@ static void predict(const Search *search, Best *best, const DipWorkSum *sum,
     }
 }
 
-// Computes the distance of the tried combination to each measured one in the settings of all groups
-// up to this one. `distances` holds the distances in the groups before this one, one for each
-// measured combination, and the results are written behind them.
+// Computes the distance of the tried combination to each measured combination in the settings of
+// all groups up to the group of `options`. `distances` holds the distances in the groups before
+// that group, one for each measured combination. The results are written behind them.
 static void compare(const Search *search, const Options *options, int option, int *distances) {
     const int count = search->models->flip.count;
     const int *apart = options->apart + (size_t)option * (size_t)count;
@@ -185,7 +187,7 @@ static void run_task(void *context, int index, int worker) {
 
 // Lists the options of each group: those combinations of report->predicted, whose work was counted,
 // that differ from the baseline in this group alone. Option 0 is the baseline itself. `all` has
-// room for every combination in each group. Returns false if the baseline was not counted.
+// room for every combination in each group. Returns false if the baseline is not listed.
 static bool list_options(Search *search, const DipCostPrediction **all) {
     const DipCostReport *report = search->report;
     const DipCostPredictions *predicted = &report->predicted;
@@ -226,8 +228,8 @@ static void add_found(DipCostReport *report, const Found *found) {
 }
 
 // Joins what all tasks found, and adds it to the predicted combinations: first those that gain most
-// for each budget, and then, from fast bins to slow ones, the best of each bin whose FLIP is at
-// least 1 % below that of the last one added.
+// for each budget, and then, from fast bins to slow bins, the best of each bin if its FLIP is at
+// least 1 % below that of the last one taken from a bin.
 static void end_search(const Search *search, DipCostReport *report) {
     Best *all = &search->tasks[0];
     const int places = report->options.budget_count * DIP_COST_PER_BUDGET;
@@ -265,7 +267,9 @@ typedef struct Room {
     int *apart;                          // [group][option][measured combination]
     Best *tasks;                         // [option of group 0]
     Found (*found)[DIP_COST_PER_BUDGET]; // [task][budget]
-    int *distances; // [task][group][measured combination]: before the first group, and after each.
+    // [task][group][measured combination]: distances in the settings of no group, of group 0, of
+    // groups 0 and 1, and so on (try_groups).
+    int *distances;
 } Room;
 
 static void free_room(Room *room) {

@@ -10,23 +10,23 @@
 
 // Finds out with fewer than a hundred frames how busy other programs keep the machine: times the
 // baseline beside a second copy of itself. Warns if the verdict on these times (verdict.h) is red,
-// or if the waiting time of the threads alone is not green. (The report's own verdict comes later,
-// from all of its times.) Sets cost->baseline_ms. There is at most one warning for each context,
-// either from this function or from dip_cost_look_at_times.
+// or if a verdict on the waiting time of the threads alone is not green. (The report's own verdict
+// comes later, from all of its times.) Sets cost->baseline_ms. There is at most one warning for
+// each context, either from this function or from dip_cost_look_at_times.
 bool dip_cost_look_at_machine(DipCostContext *cost, DipError *err);
 
 // Warns if the threads waited so long for a core while these frames were drawn that a verdict on
 // their waiting time alone is not green.
 void dip_cost_look_at_times(DipCostContext *cost, const DipTimed *timed, int count);
 
-// The phases of a run, in order. Only runs with predictions have the phases COUNTING, TRAINING and
-// BEST. Such runs measure the best combinations in several goes (best.c), so the phases BEST_ERRORS
-// and BEST_TIMES may begin several times.
+// The phases of a run, in order. Only runs with predictions have the phases COUNTING, TRAINING,
+// BEST_ERRORS, BEST_TIMES and MORE_BEST. Such runs measure the best combinations in several goes
+// (best.c), so the phases BEST_ERRORS and BEST_TIMES may begin several times.
 typedef enum DipCostPhase {
     DIP_COST_PHASE_TRUTHS,
     DIP_COST_PHASE_SWEEPS,      // Errors of the planned rows (plan.h).
     DIP_COST_PHASE_COUNTING,    // Work of combinations.
-    DIP_COST_PHASE_TRAINING,    // Errors of the rows that tell most about all others.
+    DIP_COST_PHASE_TRAINING,    // Errors of the combinations that tell most about all others.
     DIP_COST_PHASE_TIMES,       // Times of all rows so far.
     DIP_COST_PHASE_BEST_ERRORS, // Errors of the best combinations, in one go.
     DIP_COST_PHASE_BEST_TIMES,  // Times of the best combinations, in one go.
@@ -36,11 +36,12 @@ typedef enum DipCostPhase {
     DIP_COST_PHASE_COUNT
 } DipCostPhase;
 
-// Begins the forecast, once cost->baseline_ms is known.
+// Begins the forecast. Uses cost->baseline_ms, so call this function after
+// dip_cost_look_at_machine, unless nothing is timed.
 void dip_cost_forecast_begin(DipCostContext *cost);
 
-// Begins a phase: tells the progress display how long this phase and all later ones will probably
-// take. Returns the expected time of the later ones in seconds.
+// Begins a phase: tells the progress display how long this phase and all later phases will probably
+// take. Returns the expected time of the later phases in seconds.
 double dip_cost_begin_phase(DipCostContext *cost, DipCostPhase phase);
 
 // Makes the truths (converged pictures) that are not in the cache. Fills in the noise floor of each
@@ -73,17 +74,17 @@ bool dip_cost_time_more(DipCostContext *cost, const int *rows, int count, int ti
 // sweeps, and drops the settings that change no picture. Counts the work of combinations on a few
 // frames. Measures the combinations that tell most about all others, and predicts the times and
 // errors of all others from them. Then measures those that the predictions put on the Pareto front
-// or near a budget. A run calls it instead of dip_cost_judge, dip_cost_time_rows and
-// dip_cost_time_smaller.
+// or near a budget. A run with predictions calls this function instead of dip_cost_judge,
+// dip_cost_time_rows and dip_cost_time_smaller.
 bool dip_cost_predict(DipCostContext *cost, DipError *err);
 
 // Times rows again if it is unclear whether they are within a budget. If a row is advised for this
-// budget, does so only for rows that are clearly better than it. Does nothing if the verdict on the
-// machine is red.
+// budget, only rows that are clearly better than the advised row are timed again. Does nothing if
+// the verdict on the machine is red.
 bool dip_cost_advise(DipCostContext *cost, DipError *err);
 
-// Answers requests for timed frames on standard input until it is closed. dip_cost_time_rows starts
-// processes that do so (--starts).
+// Answers requests for timed frames on standard input until it is closed. The processes that
+// dip_cost_time_rows and dip_cost_time_more start (--starts) call this function.
 bool dip_cost_serve(DipCostContext *cost, DipError *err);
 
 // --- predicting ----------------------------------------------------------------------------------
@@ -94,7 +95,8 @@ bool dip_cost_count(DipCostContext *cost, const DipQuality *quality, int frames,
                     DipError *err);
 
 // Takes a setting out of options.combined if all steps of its sweep draw the same pictures. All
-// combinations then have the baseline's step of this setting.
+// combinations then have the baseline's step of this setting. If adaptive AA (aaa) is taken out, so
+// is its group size (asd).
 void dip_cost_drop_idle_settings(DipCostReport *report);
 
 // Lists the combinations of the combined settings in report->predicted, and sets `searched` to
@@ -115,8 +117,8 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err);
 // the baseline's time. They would tell much about prices, but measuring them would take too long.
 void dip_cost_drop_slow_sample(DipCostReport *report);
 
-// Composes the counters of a combination from those of counted combinations in report->predicted
-// (combinations.h). Returns false if a combination that is needed is not listed there.
+// Composes the counters of a combination from those of counted combinations in report->predicted.
+// Returns false as dip_work_compose (combinations.h) does.
 bool dip_cost_compose_counters(const DipCostReport *report, DipCostPrediction *prediction);
 
 // Mends counters of report->predicted, which come from a few frames only, while the counters of
@@ -126,7 +128,8 @@ bool dip_cost_compose_counters(const DipCostReport *report, DipCostPrediction *p
 // the counters of its row.
 void dip_cost_scale_counters(DipCostReport *report);
 
-enum { DIP_COST_COUNTED_FRAMES = 8 }; // Frames of path 0, spread evenly, whose work is counted.
+// Number of frames of path 0, spread evenly, on which the work of a combination is counted.
+enum { DIP_COST_COUNTED_FRAMES = 8 };
 
 // Returns how many combinations are measured to predict `count` combinations of these settings. The
 // combinations of the sweeps are part of this number. Bit s of `settings` stands for setting s.
@@ -142,8 +145,9 @@ int dip_cost_training_count(unsigned settings, int count);
 bool dip_cost_choose_timed(const DipCostReport *report, int count, int *chosen, DipError *err);
 
 // Chooses the combinations to measure, which tell most about times and about FLIP. Writes their
-// indices as dip_cost_choose_timed does. Of those that have no row yet, that function chooses one
-// half, and dip_flip_model_design the other. Fails with DIP_ERROR_MEMORY.
+// indices as dip_cost_choose_timed does. Of the chosen combinations without a row,
+// dip_cost_choose_timed chooses one half, and dip_flip_model_design the other half. Fails with
+// DIP_ERROR_MEMORY.
 bool dip_cost_choose_training(const DipCostReport *report, int count, int *chosen, DipError *err);
 
 // Indices of the values that are predicted for a combination.
@@ -159,20 +163,22 @@ typedef struct DipCostModels {
     DipCostModel times;
     double p95;        // The usual ratio of the 95th percentile of the frames' times to their mean.
     DipFlipModel flip; // Knows the combinations that have a row (flip.known).
-    DipCostProcess of_times; // Of the logarithms of what the model of times misses.
-    // [combination of flip.known]: its share in the corrections of means, and in those of 95th
-    // percentiles (process.h).
-    double *ms_shares;  // Owned.
-    double *p95_shares; // Part of ms_shares.
+    DipCostProcess of_times; // Models log(measured time / time of the model `times`).
+    // [combination of flip.known]: its share (process.h) in the corrections of mean times. Owned.
+    double *ms_shares;
+    // [combination of flip.known]: its share in the corrections of 95th percentiles. Lies in the
+    // array ms_shares.
+    double *p95_shares;
 } DipCostModels;
 
-// Fits the models. Free them even after a failure. Fails with DIP_ERROR_MEMORY.
+// Fits the models to the combinations of report->predicted that have a row. Free the models even
+// after a failure. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_models_of(const DipCostReport *report, DipCostModels *models, DipError *err);
 void dip_cost_models_free(DipCostModels *models);
 
-// Predicts a combination with these counters and these distances to all measured ones
-// (dip_flip_model_distances). Its time is the model's, corrected by what the model misses at
-// others.
+// Predicts a combination with these counters and these distances to all measured combinations
+// (dip_flip_model_distances). The model models->times predicts the time, which is then corrected by
+// what this model misses at similar measured combinations.
 void dip_cost_predict_one(const DipCostModels *models, const double *counters,
                           const DipQuality *quality, const int *distances,
                           double values[DIP_COST_PREDICTED]);
@@ -180,39 +186,42 @@ void dip_cost_predict_one(const DipCostModels *models, const double *counters,
 // Predicts every combination of report->predicted that has no row. Fails with DIP_ERROR_MEMORY.
 bool dip_cost_predict_others(DipCostReport *report, const DipCostModels *models, DipError *err);
 
-// What a combination that is measured for a budget may gain.
+// What the gain of a combination for one budget is computed from (dip_cost_gain).
 typedef struct DipCostAim {
     double budget_ms;
-    double loss;       // FLIP of the combination that is advised now, or the greatest measured one.
+    double loss;       // FLIP of the combination that is advised now; if none is advised, the
+                       // greatest measured FLIP.
     double floor;      // The least loss: the FLIP that the noise of the truth makes.
     double time_error; // Standard deviation of the logarithms of times from their predictions.
 } DipCostAim;
 
 DipCostAim dip_cost_aim(const DipCostReport *report, int budget);
 
-// Returns by what share measuring a combination probably lowers the FLIP that is advised: the
-// expected improvement (Jones, Schonlau and Welch 1998) times the probability that it fits. `ms` is
-// its predicted time, `flip` its predicted FLIP, and `error` the standard deviation of the
-// logarithm of FLIP.
+// Returns by what share measuring a combination probably lowers the FLIP of the advised
+// combination: the expected improvement (Jones, Schonlau and Welch 1998) times the probability that
+// the combination is within the budget. `ms` is its predicted time, `flip` its predicted FLIP, and
+// `error` the standard deviation of the logarithm of this FLIP.
 double dip_cost_gain(const DipCostAim *aim, double ms, double flip, double error);
 
-// No combination that gains less than this is measured.
+// No combination that gains less than this is measured for a budget.
 #define DIP_COST_LEAST_GAIN 0.003
 
-// Predicts all combinations of the combined settings, and adds the best to report->predicted. These
-// are, for each budget, the DIP_COST_PER_BUDGET combinations that gain most, and those on a Pareto
-// front. This front has at most one combination for each 2 % of time, and the FLIP of each is at
-// least 1 % below that of the one before. The work of combinations is composed from those of
-// report->predicted that were counted. Fails with DIP_ERROR_MEMORY.
+// Predicts all combinations of the combined settings, and adds the best to report->predicted, which
+// has room for DIP_COST_MAX_ROWS. The best are, for each budget, the DIP_COST_PER_BUDGET
+// combinations that gain most, and the combinations on a Pareto front. This front has at most one
+// combination for each 2 % of time, and the FLIP of each is at least 1 % below that of the next
+// faster one. The work of combinations is composed from the work of those of report->predicted that
+// were counted. Fails with DIP_ERROR_MEMORY.
 enum { DIP_COST_PER_BUDGET = 64 };
 bool dip_cost_search(DipCostReport *report, DipPool *pool, const DipCostModels *models,
                      DipError *err);
 
-// Lists the combinations that should be measured and have no row yet. For each budget these are
-// some that gain most, one after another: each that is listed makes the FLIP of those that are
-// alike less uncertain, and so is added to models->flip.process. If `front` is true, some on the
-// Pareto front of predicted or measured time and FLIP (dip_front, choice.h) are added. Writes their
-// indices in report->predicted to `list`. Returns their number, or -1 and fills *err.
+// Lists combinations that should be measured and have no row yet. First lists some that gain most
+// for each budget, one after another. Measuring one will make the FLIP of similar combinations less
+// uncertain, so each listed combination is added to models->flip.process before the next is chosen.
+// If `front` is true, also lists some combinations on the Pareto front of predicted or measured
+// time and FLIP (dip_front, choice.h). Writes the indices in report->predicted to `list`. Returns
+// their number, or -1 and fills *err.
 enum { DIP_COST_MOST_PROMISING = 24 };
 int dip_cost_list_promising(const DipCostReport *report, DipCostModels *models, bool front,
                             int list[DIP_COST_MOST_PROMISING], DipError *err);
@@ -237,7 +246,7 @@ int dip_cost_most_goes(const DipCostOptions *options);
 // without truths for the other size, path or number of threads.
 
 // Makes *there a report without rows for this size and the camera path with this name. The number
-// of timed frames is that of `report`. If the caller adds predicted combinations to *there, it
+// of timed frames is that of `report`. A caller that adds predicted combinations to *there also
 // frees them.
 void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report, int width,
                               int height, const char *path);

@@ -19,10 +19,10 @@
 enum {
     BASE_COPIES = 3, // Number of rounds in which each frame of the baseline is timed. More than one
                      // round tells slow frames from slow moments.
-    BLOCK_ROWS = 4,  // Number of rows that are timed beside one drawing of the baseline. If all
-                     // rows of a round shared one drawing, ratios would deviate twice as much.
-    LEAST_SIDE = 64, // Pixels. If a side of the pictures is shorter, they are not timed at half
-                     // their size.
+    BLOCK_ROWS = 4,  // Greatest number of rows that share one drawing of the baseline. If all rows
+                     // of a round shared one drawing, ratios would deviate twice as much.
+    LEAST_SIDE = 64, // If the pictures' width or height is below this number of pixels, nothing is
+                     // timed at half their size.
     REQUEST_SIZE = 512,
     SEED_SALT = 0x517 // Mixed into the seed of dip_cost_time_elsewhere, for another order of
                       // frames than that of the report's rows.
@@ -46,7 +46,7 @@ typedef struct Timing {
     DipCostContext *cost;
     int count;
     Subject *subjects;
-    int *rows;     // [subject]: index of its row in the report.
+    int *rows;     // [subject]: index of its row in the report. dip_cost_time_elsewhere ignores it.
     int *base_of;  // [subject]: index of the subject that is its base.
     bool *counted; // [subject * frames + frame]: whether the frame's counters are in the sums.
     DipDriverMachine machine;
@@ -102,8 +102,8 @@ static void count_work(const Timing *t, int subject, int frame, const DipCounter
     }
 }
 
-// Turns the sums of count_work into means over the frames. Before, draws the frames whose times
-// came from the journal and counts their work, since the journal has no counters.
+// First draws the frames whose times came from the journal and counts their work, since the journal
+// has no counters. Then turns the sums of count_work into means over the frames.
 static bool average_work(const Timing *t, DipError *err) {
     const int frames = dip_cost_frame_count(t->cost->report);
     for (int s = 0; s < t->count; s++) {
@@ -350,11 +350,13 @@ bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCos
 // --- half the size -------------------------------------------------------------------------------
 
 // Fills report->smaller with the baseline and with up to three variants of it: with AA 4x, with AF
-// 16x, and with AA 8x, adaptive AA and AF 16x. These have more work at edges, in textures, and in
-// both than the default settings. Variants that the renderer refuses are left out.
+// 16x, and with AA 8x, adaptive AA and AF 16x. Compared with the default settings, the first has
+// more work at edges, the second in textures, and the third in both. Variants that the renderer
+// refuses are left out.
 static void list_smaller(DipCostReport *report) {
     static const struct {
-        // Steps. If `aa` is 0, AA and adaptive AA are those of the baseline. If `af` is 0, AF is.
+        // Steps of the settings. If `aa` is 0, the settings aa, aaa and asd are those of the
+        // baseline. If `af` is 0, the setting af is that of the baseline.
         uint8_t aa, aaa, af;
     } steps[DIP_COST_MAX_SMALLER] = {{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {4, DIP_AAA_ON, 4}};
     for (int i = 0; i < DIP_COST_MAX_SMALLER; i++) {

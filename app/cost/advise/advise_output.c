@@ -11,7 +11,7 @@
 // The advice for all budgets. It is the context of all fields (DipFieldAt).
 typedef struct Advised {
     const DipCostCommon *common;
-    const DipCostCommonAdvice *list; // One for each budget.
+    const DipCostCommonAdvice *list; // [budget]: what to choose for it.
     int count;
 } Advised;
 
@@ -151,7 +151,7 @@ static const DipAdvice *all_of(const DipFieldAt *at) {
     return &((const DipCostCommonAdvice *)at->item)->all;
 }
 
-// Returns the candidate with this index, or NULL if it is -1.
+// Returns the candidate with this index, or NULL if the index is -1.
 static const DipCandidate *candidate_at(const DipFieldAt *at, int index) {
     return index >= 0 ? &advised_of(at)->common->candidates.list[index] : NULL;
 }

@@ -31,18 +31,19 @@ typedef struct DipCostCommonAdvice {
 // Reads reports: files, or folders that have a cost.json. Borrows the strings of `files` as names.
 // `budget_of` is the kind of time that must be within the budget. Fails if a report cannot be read,
 // has no combinations with times and errors, comes from a machine that was too busy
-// (DIP_ERROR_BUSY) or from another build of the program, or if no combination is in all reports.
-// Free *common even after a failure.
+// (DIP_ERROR_BUSY) or from another build than the first report, or if no combination is in all
+// reports. Also fails with DIP_ERROR_MEMORY. Free *common even after a failure.
 bool dip_cost_common_read(DipCostCommon *common, const char *const *files, int count,
                           DipTimeKind budget_of, DipError *err);
 
-// Lists the combinations that all of common->reports have. common->names must be filled in, too.
-// Fails for the same reasons as dip_cost_common_read, except that no file is read.
+// Lists the combinations that all of common->reports have. First fill in the reports, their
+// options.budget_of, their number and their names. Fails for the same reasons as
+// dip_cost_common_read, except that no file is read.
 bool dip_cost_common_match(DipCostCommon *common, DipError *err);
 void dip_cost_common_free(DipCostCommon *common);
 
 // Returns the row of a combination in one report: its own row, or the row of a combination that
-// draws the same pictures.
+// draws the same pictures. `combination` is an index in common->candidates.
 int dip_cost_common_row(const DipCostCommon *common, int combination, int report);
 
 // Returns the time and error of a combination in one report.

@@ -25,8 +25,9 @@ typedef struct Arguments {
 
 // --- joining -------------------------------------------------------------------------------------
 
-// True if two reports are parts of the same report: if they have the same scene, size, paths, rows
-// and truths (converged pictures). Their machines and times may differ.
+// Returns whether two reports are parts of the same report: whether they have the same scene, size,
+// paths and rows, and measure errors in the same way (the options places, burst, samples and
+// pixels_per_degree). Their machines and times may differ.
 static bool belong(const DipCostReport *a, const DipCostReport *b) {
     bool same = strcmp(a->scene_hash, b->scene_hash) == 0 && a->width == b->width &&
                 a->height == b->height && a->row_count == b->row_count &&

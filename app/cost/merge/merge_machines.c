@@ -1,5 +1,5 @@
-// Collects what the parts of a merged report tell about the machines that measured them, and prints
-// it as a table.
+// Collects what the parts of a merged report tell about the machines that timed them, and prints a
+// table of these machines.
 #include "app/cost/merge/merge_machines.h"
 
 #include "app/files/put.h"

@@ -1,5 +1,6 @@
-// Makes a table that compares the machines of the parts (the reports that `diptych cost merge`
-// joins) that have times. The merged report has the times of only one of these machines.
+// Makes a table that compares machines. The reports that `diptych cost merge` joins are called
+// parts. The table has the machine of each part that has times. The merged report has the times of
+// only one of these machines.
 #ifndef DIP_APP_COST_MERGE_MERGE_MACHINES_H
 #define DIP_APP_COST_MERGE_MERGE_MACHINES_H
 

@@ -1,5 +1,5 @@
-// Runs the command `diptych cost predict`: reads its options, predicts, prints the prediction and
-// writes it to files.
+// Runs the command `diptych cost predict`: reads its options, predicts times
+// (predict_elsewhere.h), prints them and writes them to files.
 #include "app/cost/command.h"
 #include "app/cost/predict/predict_elsewhere.h"
 #include "app/cli/progress.h"

@@ -1,11 +1,12 @@
 // Predicts the times of a report's combinations at another place, called "there": at another size,
 // on another camera path, with another number of threads or another instruction set.
 //
-// A combination is a set of quality settings on the camera path. The report's model of times
-// (fit.h) knows the price of each kind of work: the milliseconds that a unit of it takes. The work
-// of each combination is counted there. The sum of work times price is the prediction from the
-// report alone (as_is_ms). If some combinations are timed there, prices are fitted anew to them and
-// to the report, and all combinations are predicted with these prices.
+// The combinations are those of --combine or --predict: sets of quality settings that the report
+// timed or predicted on its first camera path. The report's model of times (fit.h) knows the price
+// of each kind of work: the milliseconds that a unit of this work takes. The work of each
+// combination is counted there. The sum of work times price is the prediction from the report alone
+// (as_is_ms). If some combinations are timed there, prices are fitted anew to them and to the
+// report, and all combinations are predicted with these prices.
 #ifndef DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 #define DIP_APP_COST_PREDICT_PREDICT_ELSEWHERE_H
 
@@ -24,8 +25,8 @@ typedef struct DipCostPredictArguments {
     DipSessionOptions session;
     const char *report; // A cost.json, or a folder that has one.
     int report_count;
-    int timed;        // Number of combinations to time there, to predict from. If it is 0, the
-                      // predictions come from the report alone.
+    int timed;        // Number of combinations to time there, from which all others are predicted.
+                      // If it is 0, the predictions come from the report alone.
     int checked;      // Number of further combinations to time there, to check the predictions.
     const char *json; // JSON file to write, or NULL.
     const char *csv;  // CSV file to write, or NULL.
@@ -44,8 +45,8 @@ typedef struct DipCostPredictedThere {
 // baseline, so the machine's speed today does not matter.
 typedef struct DipCostElsewherePrediction {
     DipCostReport report;
-    DipCostReport there;         // The size, path, threads and instruction set there. It has no
-                                 // rows; `predicted` has the counted work.
+    DipCostReport there;         // Has the size, path, threads and instruction set there, and no
+                                 // rows. there.predicted has the counted work.
     DipCostMisses fit;           // Misses of the report's rows, each predicted from the other rows.
     DipCostPredictedThere *list; // [count]: the combinations, in the order of the report. Owned.
     int count;
@@ -57,7 +58,8 @@ typedef struct DipCostElsewherePrediction {
     // none.
     double factor;
     DipCostMisses timed_as_is; // How far as_is_ms misses the times to which prices are fitted.
-    // How far these times are missed, each by a prediction from prices that are fitted without it.
+    // Misses of the times to which prices are fitted. Each time is predicted with prices that are
+    // fitted to the report and to all others of these times.
     DipCostMisses timed_left_out;
     DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
     DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.
@@ -69,14 +71,15 @@ typedef struct DipCostElsewherePrediction {
 // Shows its progress on standard error. Free the prediction even after a failure. Fails as
 // dip_cost_read_report and the renderer do. Also fails with CONFLICT if the session's scene is not
 // the report's, or if the session's camera path with the name of the report's path 0 has other
-// poses, with MISSING if the report has no times or no combinations, and with UNSUPPORTED if this
-// machine lacks the report's instruction set.
+// poses, with MISSING if the report has no times or no combinations, with UNSUPPORTED if this
+// machine lacks the report's instruction set, with RUNTIME after Ctrl-C, and with MEMORY.
 bool dip_cost_predict_there(DipCostElsewherePrediction *prediction, const DipSession *session,
                             const DipCostPredictArguments *arguments, DipError *err);
 void dip_cost_predict_there_free(DipCostElsewherePrediction *prediction);
 
-// Predicts all combinations from the report and from what was timed there, and computes all misses.
-// Needs the report's rows, the counters in there.predicted, the list and the timed combinations.
+// Predicts all combinations from the report and from what was timed there. Computes `factor` and
+// all misses except `fit`. Needs the report's rows, the counters in there.predicted, `list`,
+// `timed` and their counts.
 void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *prediction);
 
 // Prints the prediction for a terminal.
