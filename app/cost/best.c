@@ -69,7 +69,8 @@ bool dip_cost_measure_best(DipCostReport *report, DipPool *pool, DipCostMeasure 
     if (done) {
         report->predicted.errors_left_out = dip_flip_model_left_out(&models.flip);
     }
-    // With a red verdict, no settings will be advised, so none are looked for.
+    // If the verdict is red, the times are wrong (report.h) and no settings will be advised, so no
+    // combinations are measured for the advice.
     const int goes = report->verdict == DIP_COST_RED ? 0 : dip_cost_most_goes(&report->options);
     for (int go = 0; done && go < goes; go++) {
         int list[DIP_COST_MOST_PROMISING], rows[DIP_COST_MOST_PROMISING];

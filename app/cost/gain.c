@@ -1,5 +1,6 @@
-// Computes by what share measuring a combination probably lowers the FLIP that is advised for a
-// budget (its gain), and chooses the combinations with the greatest gains.
+// Computes the gain of a combination: the share by which the FLIP of the settings advised for a
+// budget is expected to fall if the combination is measured. Chooses the combinations to measure:
+// those with the greatest gains and, if the caller asks for them, a few on the Pareto front.
 #include "app/cost/steps.h"
 
 #include <math.h>

@@ -48,9 +48,9 @@ bool dip_cost_journal_add(DipCostJournal *journal, const char *key,
 int dip_cost_journal_round_count(const DipCostJournal *journal, int *seed);
 
 // Returns the frames of a round, in the order in which they were stored. `round` is
-// 0..dip_cost_journal_round_count - 1. Sets *count to their number, or to 0 if the round had
-// another seed or its line has another form. The caller frees the frames. Returns NULL when memory
-// runs out.
+// 0..dip_cost_journal_round_count - 1. Sets *count to their number, or to 0 if the round was
+// stored with another seed than `seed`, or if its line does not hold a seed and whole frames. The
+// caller frees the frames. Returns NULL when memory runs out.
 DipTimed *dip_cost_journal_round(const DipCostJournal *journal, int round, int seed, int *count);
 
 // Stores a round with the journal's plan hash for the next run.

@@ -8,8 +8,9 @@
 #include <stdlib.h>
 
 // The logarithms of measured / modelled time are a Gaussian process (process.h). The covariance of
-// two combinations is alike_time to the power of their distance in steps. own_time is the further
-// variance that each combination has by itself.
+// two combinations is alike_time to the power of d / DIP_PROCESS_STEP, where d is their distance
+// with the weights of the FLIP model (dip_cost_distance). own_time is the further variance that
+// each combination has by itself.
 static const double alike_time = 0.6, own_time = 0.3;
 
 static int list_rows(const DipCostPredictions *predicted, int rows[DIP_COST_MAX_ROWS]) {

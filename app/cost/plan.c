@@ -98,8 +98,8 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 // --- rows ----------------------------------------------------------------------------------------
 
 // Finds the row of these settings on this path, or adds it. Looks only at the rows from
-// combined_first on. With --predict, these are all rows but the first two, the base row and the A/A
-// row: the rows of the sweeps are combinations, too. Without --predict, these are all rows:
+// combined_first on. If the run predicts (plan.h), these are all rows but the first two, the base
+// row and the A/A row: the rows of the sweeps are combinations, too. Otherwise, these are all rows:
 // combined_first is still 0. There is always room, because the sweeps need far fewer rows than
 // DIP_COST_MAX_ROWS.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
@@ -123,14 +123,14 @@ static void add_to_sweep(DipCostSweep *sweep, int row) {
     }
 }
 
-// Returns the path for the sweep of a setting. With --predict, it is path 0, on which all
+// Returns the path for the sweep of a setting. If the run predicts, it is path 0, on which all
 // combinations are measured.
 static int sweep_path(DipCostReport *report, const DipSession *session, DipSetting setting) {
     return report->options.predict ? 0 : add_path(report, session, categories[setting]);
 }
 
-// Returns whether a sweep of a setting from this base is wanted. With --predict, it is wanted only
-// if the setting is a combined one, and so are all settings in which the base differs from the
+// Returns whether a sweep of a setting from this base is wanted. If the run predicts, it is wanted
+// only if the setting is a combined one, and so are all settings in which the base differs from the
 // baseline.
 static bool is_swept(const DipCostReport *report, DipSetting setting, const DipQuality *base) {
     const unsigned combined = report->options.combined;
@@ -187,8 +187,8 @@ static void add_if_valid(DipCostReport *report, DipCostSweep *sweep, const DipQu
 
 // Adds a sweep of adaptive AA for each number of samples, because the possible group sizes depend
 // on the number of samples. The steps go from few sample groups to many. aaa=all is combined with
-// only one group size, one sample (asd=1), since frames with aaa=all take long. With --predict,
-// adds the sweep for only one number of samples.
+// only one group size, one sample (asd=1), since frames with aaa=all take long. If the run
+// predicts, adds the sweep for only one number of samples.
 static void plan_adaptive(DipCostReport *report, const DipSession *session) {
     const DipSettingInfo *group_size = dip_setting_info(DIP_SETTING_ASD);
     for (int aa = 1; aa < dip_setting_info(DIP_SETTING_AA)->step_count; aa++) {

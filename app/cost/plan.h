@@ -1,8 +1,11 @@
 // Plans the rows of a report. A row is one combination of settings on a camera path. There is a row
 // for every step of every setting but mip colours, on the camera path made for this setting, and a
-// row for every combination that --combine asks for. Steps and combinations that the renderer
-// refuses have no rows. With --predict, only the steps of the combined settings have rows, all on
-// path 0, and rows for other combinations are added later (steps.h).
+// row for every combination of the combined settings (--combine). Steps and combinations that the
+// renderer refuses have no rows.
+//
+// A run predicts if the user gives --predict or --quick, or gives budgets but neither --combine nor
+// --part. Then only the steps of the combined settings have rows, all on path 0, and rows for other
+// combinations are added later (steps.h).
 #ifndef DIP_APP_COST_PLAN_H
 #define DIP_APP_COST_PLAN_H
 
@@ -44,8 +47,8 @@ void dip_cost_hash_path(DipCostReport *report, const DipSession *session, int pa
 int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession *session, int path,
                                    int viewpoint, int frame);
 
-// Writes the plan hash, which covers everything that times depend on: rows, poses along the paths,
-// effects, size, scene, machine, version and build.
+// Writes the plan hash, which covers everything that times depend on, for example rows, poses along
+// the paths, size, scene, processor, threads and the program's build.
 void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, char hex[33]);
 
 #endif

@@ -1,7 +1,7 @@
 // A Gaussian process over combinations of settings (Rasmussen and Williams 2006). A value that is
 // known at some combinations has a mean and a variance at every other one. The covariance of two
-// combinations is `common` + alike^d, where d is their distance in steps of settings. What is known
-// also has a variance of its own, `own`.
+// combinations is `common` + alike^(d / DIP_PROCESS_STEP), where d is their distance
+// (dip_cost_distance). What is known also has a variance of its own, `own`.
 #ifndef DIP_APP_REPORT_PROCESS_H
 #define DIP_APP_REPORT_PROCESS_H
 

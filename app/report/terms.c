@@ -1,4 +1,5 @@
-// Lists the terms of each stage of a frame, by their names and formulas.
+// Lists the terms of the model of times (fit.h) for each stage of a frame, each with its name and
+// the formula of its amount.
 #include "app/report/fit.h"
 
 #include "app/report/combinations.h"

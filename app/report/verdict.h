@@ -1,9 +1,10 @@
 // Judges whether the machine was quiet enough for its times to be believed.
 //
-// The verdict needs two kinds of signs, because each shows what the other misses. The waiting time
-// of the threads shows other programs on this machine. The A/A rows (the baseline, timed as if it
-// were another setting) show disturbances from outside, such as another virtual machine on the same
-// host.
+// The verdict follows mainly from two kinds of signs, because each shows what the other misses. The
+// waiting time of the threads shows other programs on this machine. The A/A rows (the baseline,
+// timed as if it were another setting) show disturbances from outside, such as another virtual
+// machine on the same host. Two further signs tell whether too many times stayed disturbed, and
+// whether the time of a frame was steady before the measurement.
 #ifndef DIP_APP_REPORT_VERDICT_H
 #define DIP_APP_REPORT_VERDICT_H
 

@@ -1,5 +1,5 @@
-// Groups the quantities that differ: all errors together, and other quantities that differ in the
-// same rows. Describes the rows of each group in a few words.
+// Groups the quantities that differ between A and B: all errors are one group, and other quantities
+// share a group if they differ in the same rows. Describes the rows of each group in a few words.
 #include "app/cost/diff/diff.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 
 static const char *const mark_names[] = {"same", "slower", "faster"};
 
-// The context of all items (DipFieldAt) is the DipCostDiff.
+// In all fields of this file, DipFieldAt.context is the DipCostDiff.
 static const DipCostDiff *diff_of(const DipFieldAt *at) {
     return at->context;
 }

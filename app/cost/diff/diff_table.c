@@ -1,4 +1,4 @@
-// Prints a comparison for a terminal.
+// Prints a comparison of reports or programs (diff.h) for a terminal.
 #include "app/cost/diff/diff.h"
 #include "app/files/put.h"
 

@@ -1,5 +1,6 @@
-// Counts the work of combinations at another place ("there", predict_elsewhere.h), times a few of
-// them there, and predicts the times of all from the price of each kind of work.
+// Counts the work of a report's combinations "there" (predict_elsewhere.h): at another size, on
+// another camera path, or with other threads or another instruction set. Times a few of them there,
+// and predicts the times of all from the price of each kind of work.
 #include "app/cost/predict/predict_elsewhere.h"
 
 #include "app/report/format/formats.h"

@@ -41,8 +41,9 @@ typedef struct DipCostPredictedThere {
     int timed;        // Index in the prediction's `timed`; -1 if it was not timed there.
 } DipCostPredictedThere;
 
-// All times are on the scale of the report's times. Each combination is timed beside the report's
-// baseline, so the machine's speed today does not matter.
+// All times are on the scale of the report's times. Each combination is timed there, in turn with
+// the baseline, which is drawn with the report's own size, path, threads and instruction set. The
+// machine's speed today therefore does not matter.
 typedef struct DipCostElsewherePrediction {
     DipCostReport report;
     DipCostReport there;         // Has the size, path, threads and instruction set there, and no
