@@ -1,5 +1,5 @@
 // Declares the controls of settings: the entries of the list, the editor with the price of each
-// step (value) of the open setting, and the lines of the drawer's narrow list.
+// step (value) of the open setting, and the lines of the list in a narrow or low tab.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"

@@ -1,5 +1,6 @@
-// Declares the settings tab: a list of all settings and an editor for the open one. If there is
-// little room, the tab has one line for each setting or, in their place, the presets.
+// Declares the settings tab: a list of all settings, an editor for the open one, and the sum of the
+// requested settings' prices (app/report/prices/prices.h). In a narrow or low tab, the list has one
+// line for each setting, and the presets can take the place of the list.
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -26,10 +27,10 @@ enum {
     EDITOR_HEIGHT = 78 // Height of an editor that stands above the sum.
 };
 
-// The settings in the order in which a wide or medium tab shows them (the drawer has the order of
-// DIP_SETTING_LIST), and the names of their groups. An entry
-// whose group is "" belongs to the group above it. A column ends at an entry whose group is NULL,
-// or after ENTRIES entries.
+// The settings in the order in which a wide or medium tab shows them, and the names of their
+// groups. A narrow or low tab has the order of DIP_SETTING_LIST instead. An entry whose group is ""
+// belongs to the group above it. A column ends at an entry whose group is NULL, or after ENTRIES
+// entries.
 enum { COLUMNS = 2, ENTRIES = 8 };
 static const struct {
     const char *group;
@@ -119,11 +120,11 @@ static void declare_medium(DipUi *ui, DipWindow *window, DipRect body) {
     dip_setting_sum_declare(ui, window, rest);
 }
 
-// --- the drawer ----------------------------------------------------------------------------------
+// --- a narrow or low tab -------------------------------------------------------------------------
 
-// Declares the foot of the drawer (tools/layout.h): the sum of prices, the button Apply, and a
-// button that exchanges the list of settings for presets, Undo and Copy. more: the presets, Undo
-// and Copy show now.
+// Declares the foot of a narrow or low tab: the sum of prices, the button Apply, and a button that
+// exchanges the list of settings for presets, Undo and Copy. more: the presets, Undo and Copy show
+// now.
 static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) {
     const int pad = dip_ui_px(ui, 4);
     const double budget_ms = window->state->budget_ms;

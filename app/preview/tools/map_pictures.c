@@ -1,4 +1,5 @@
-// Draws the maps' pictures, and says what a map waits for.
+// Draws the pictures of the maps of error and work that lie over the panes (maps.h). Says why a map
+// is missing or not yet final, and reads sizes of mip levels from the map of mip colours.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tools/maps.h"
 
@@ -7,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Share of the value's colour in each pixel of a map of work, in 1/256. The rest is the pane's
-// picture in grey.
+// Share of the scale's colour, in 1/256, where a map blends it with the pane's picture in grey.
 enum { COLOUR_SHARE = 174 };
 
 static void put(uint8_t *to, const uint8_t rgb[3]) {

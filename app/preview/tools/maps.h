@@ -152,9 +152,10 @@ bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const 
 const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
                             char *text, size_t size_bytes);
 
-// Returns the side of the mip level, in texels, whose colour is most like that of a pixel of the
-// map DIP_MAP_MIPS. Returns 0 if no level's colour is similar or the map is not known. Light may
-// dim the colour, and colours of two levels mix where levels are blended.
+// Returns roughly the side, in texels, of the mip level that a pixel of the map DIP_MAP_MIPS shows:
+// 1024 >> index for the colour that is most like the pixel's (dip_map_mip_colour). Returns 0 if no
+// colour is similar or the map is not known. Light may dim the pixel's colour, and colours of two
+// levels mix where levels are blended.
 int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
 
 // Returns one of the colours that stand for sizes of mip levels. The colour `index` (0..7) stands

@@ -1,5 +1,5 @@
-// Draws the thumbnails of a path with a painter of the strip's own. The painter exists only until
-// all thumbnails are drawn.
+// Draws the thumbnails of a path with a painter of the strip's own. Once all thumbnails are drawn,
+// a later update frees the painter.
 #include "app/preview/tools/strip.h"
 
 #include "campaths/campath.h"

@@ -28,7 +28,9 @@ typedef struct DipStripSubject {
 
 typedef struct DipStrip {
     DipStripSubject subject;
-    DipPainter *painter; // Draws the thumbnails; NULL unless some are still to be drawn.
+    // Draws the thumbnails. Created before the first thumbnail is drawn. Freed by a later update
+    // once all thumbnails are drawn or one has failed.
+    DipPainter *painter;
     DipCanvas pictures[DIP_STRIP_COUNT];
     uint64_t versions[DIP_STRIP_COUNT];
     uint64_t version; // Version of the thumbnail that was drawn last.
