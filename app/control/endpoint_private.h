@@ -1,5 +1,7 @@
 // Connects the control channel with its clients: the program at the other end of standard input and
-// output, or the programs that connect to a Unix domain socket. No function here waits.
+// output, or the programs that connect to a Unix domain socket. No function here waits for a
+// client, except that writing may wait if standard output is a pipe or device that cannot be opened
+// again (open_output in endpoint.c).
 #ifndef DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 #define DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 

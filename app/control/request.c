@@ -1,5 +1,5 @@
-// Reads requests with the help of two tables. One describes all fields, and the other says which
-// fields each request has.
+// Reads the requests of the control channel (request.h) with the help of two tables. One describes
+// all fields, and the other says which fields each request has.
 #include "app/control/request.h"
 
 #include "renderer/base/assert.h"
