@@ -215,8 +215,9 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
     return input.pressed;
 }
 
-// Adds the typed key to the number that the user types into a field. Returns the number when Enter
-// or Space ends it, otherwise -1.
+// Applies the typed key to the number that the user types into a field: appends a digit or a point,
+// or removes the last character for Backspace. Returns the number when Enter or Space ends it,
+// otherwise -1.
 static double type_number(DipUi *ui, DipUiId id, const DipUiInput *input) {
     if (ui->typing != id) {
         ui->typing = input->typed ? id : ui->typing;

@@ -33,14 +33,15 @@ struct DipUi {
     double wheel_rest; // The part of a step that the wheel has turned after its last whole step.
     DipUiId focus;
     bool focus_shows; // True if the focus is drawn and gets keys: after a key has moved it, or
-                      // after a click on a control that takes digits. Any other click hides it.
+                      // after a click on a control that takes digits. A click on any other control
+                      // that is not disabled hides the focus.
     DipUiId typing;   // The number field into which the user types, or 0.
     char typed[8]; // What the user has typed into this field and not yet ended with Enter or Space.
     bool taken; // True if a control took the event of this pass, or if the event moved the focus or
                 // hid the tip.
     bool tip_hidden;  // True if a click or Escape has hidden the tip until the pointer leaves the
                       // control.
-    bool tip_seen;    // True if the tip has been drawn.
+    bool tip_seen;    // True if a tip has been drawn since `hovered` last changed.
     bool tip_asked;   // True if a disabled control was clicked, so that its tip, which says why,
                       // shows at once.
     DipRect tip_rect; // Rectangle of the control whose tip may show.
