@@ -14,8 +14,9 @@
 // bytes in a cycle. The other floors were measured with loops that were written by hand for the
 // same work, on an Intel Xeon with AVX-512 and with all data in the first-level cache
 // (docs/performance.md, Kernels). The floor of a sub-block is 16 times the floor of a pixel with 1,
-// 2, 4 or 8 samples. The floor of a fragment is the time of one trilinear texture read. The floor
-// of a probe is a sixteenth of the time of a texture read with 16 probes in each of two mip levels.
+// 2, 4 or 8 samples. The floor of a fragment is the time of one trilinear texture read. Probes are
+// counted only in the finer mip level of a read, so the floor of a probe is a sixteenth of the time
+// of a texture read with 16 probes in each of two mip levels.
 #define DIP_BENCH_FLOOR_TRIANGLE      6.0
 #define DIP_BENCH_FLOOR_TILE_TRIANGLE 1.5
 #define DIP_BENCH_FLOOR_SUB_BLOCK_1   (16 * 0.6)
