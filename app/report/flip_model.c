@@ -16,12 +16,11 @@
 static const double common = 1.0, alike = 0.96, own = 1e-5, spread = 2.5, doubt = 0.3;
 
 enum {
-    MOST_SWEEPS =
-        3, // Greatest number of times that the weights of all settings are changed in turn.
+    MOST_SWEEPS = 3,  // Greatest number of times that all weights are changed in turn.
     MOST_TAUGHT = 128 // If more combinations are known, all weights are 1, since learning them
                       // would take long.
 };
-static const double least_weight = 0.125;
+static const double least_weight = 0.125; // The greatest is DIP_PROCESS_MOST_WEIGHT.
 
 // FLIP below this is as good as none.
 static const double least_flip = 1e-6;
@@ -52,9 +51,8 @@ static void solve(DipFlipModel *model, int count, const double *logs) {
 
 // Returns how likely the weights are.
 static double judge(DipFlipModel *model, int count, const double *logs) {
-    double likelihood;
     solve(model, count, logs);
-    likelihood = dip_cost_process_likelihood(&model->process, logs, model->shares);
+    double likelihood = dip_cost_process_likelihood(&model->process, logs, model->shares);
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         likelihood -= doubt * log2(model->weights[s]) * log2(model->weights[s]);
     }
@@ -181,6 +179,8 @@ DipCostMisses dip_flip_model_left_out(const DipFlipModel *model) {
 
 // --- what to measure -----------------------------------------------------------------------------
 
+// Returns the variance of a prediction's FLIP if the first process->count chosen ones are known,
+// and writes its distances to these. All weights are 1, since none are learned yet.
 static double variance_at(const DipCostPredictions *predicted, const DipCostProcess *process,
                           const int *chosen, int index, int *distances) {
     for (int k = 0; k < process->count; k++) {
