@@ -1,13 +1,13 @@
 // Creates, changes and destroys renderers and the resources that they keep for a scene.
 #include "renderer/scene/renderer.h"
 
-#include "renderer/base/pages.h"
 #include "renderer/base/fp_mode.h"
+#include "renderer/base/pages.h"
 #include "renderer/scene/draw/box.h"
 #include "renderer/scene/draw/renderer_parts.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/resources/mip_debug.h"
 #include "renderer/scene/resources/scene_layout.h"
+#include "renderer/scene/view/view.h"
 
 #include <math.h>
 #include <stdlib.h>

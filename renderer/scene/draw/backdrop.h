@@ -12,10 +12,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// The blur of rough glass is that of a picture of this width whose levels glass of roughness r
-// reads at log2(width) * r. So it has the same share of every picture's width.
-#define DIP_BACKDROP_WIDTH 5120
-
 // The picture, and what is read of it. All members are 0 unless the scene has rough glass.
 typedef struct DipBackdropParts {
     DipTarget target;
@@ -33,10 +29,6 @@ void dip_backdrop_free(DipBackdropParts *backdrop);
 // have some within their own size on either side, are not valid.
 uint64_t dip_backdrop_fill(const DipBackdropParts *backdrop, const DipTargetRegion *region,
                            DipPool *pool);
-
-// Returns how many pixels around its own position a fragment of a surface of this roughness, 0..1,
-// may read, in a picture of this size.
-int dip_backdrop_margin(int width, int height, double roughness);
 
 // Returns the memory of a backdrop, in bytes.
 uint64_t dip_backdrop_bytes(const DipBackdropParts *backdrop);

@@ -5,7 +5,7 @@
 #define DIP_RENDERER_SCENE_DRAW_BLEND_ORDER_H
 
 #include "renderer/pipeline/mesh.h"
-#include "renderer/scene/draw/view.h"
+#include "renderer/scene/view/view.h"
 
 #include <stdbool.h>
 #include <stdint.h>

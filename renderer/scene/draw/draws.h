@@ -7,13 +7,13 @@
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/blend_order.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/materials/material_kernels.h"
 #include "renderer/scene/materials/surface.h"
 #include "renderer/scene/materials/water.h"
 #include "renderer/scene/quality.h"
 #include "renderer/scene/resources/instancing.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/view/view.h"
 
 #include <stdbool.h>
 

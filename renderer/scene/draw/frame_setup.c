@@ -10,10 +10,10 @@
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/draw/inset.h"
 #include "renderer/scene/draw/renderer_parts.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/materials/sky.h"
 #include "renderer/scene/plan/plan.h"
 #include "renderer/scene/resources/scene_layout.h"
+#include "renderer/scene/view/view.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,11 +8,11 @@
 #include "renderer/scene/draw/backdrop.h"
 #include "renderer/scene/draw/draws.h"
 #include "renderer/scene/draw/shadow_map.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/finish.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
 #include "renderer/scene/resources/posed.h"
+#include "renderer/scene/view/view.h"
 
 // The resources of the reflection. All members are 0 unless the scene that was drawn last has
 // reflecting water.

@@ -4,8 +4,8 @@
 #define DIP_RENDERER_SCENE_DRAW_SHADOW_FIT_H
 
 #include "renderer/pipeline/cull.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/view/view.h"
 
 // Where the shadow map lies. A point p of the world has the coordinates dot(axis[i], p) along the
 // axes of the light: 0 to the right and 1 upwards in the map, and 2 towards the light.

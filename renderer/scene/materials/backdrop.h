@@ -3,6 +3,7 @@
 #ifndef DIP_RENDERER_SCENE_MATERIALS_BACKDROP_H
 #define DIP_RENDERER_SCENE_MATERIALS_BACKDROP_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 enum { DIP_BACKDROP_LEVELS = 14 }; // a picture of DIP_MAX_TARGET_SIZE pixels has as many
@@ -23,5 +24,19 @@ typedef struct DipBackdrop {
     float least_level;
     float level_range;
 } DipBackdrop;
+
+// The blur of rough glass is that of a picture of this width whose levels glass of roughness r
+// reads at log2(width) * r. So it has the same share of every picture's width.
+#define DIP_BACKDROP_WIDTH 5120
+
+// Sets all members except `texels` for a picture of width x height pixels.
+void dip_backdrop_lay_out(DipBackdrop *levels, int width, int height);
+
+// Returns the number of texels of all levels.
+size_t dip_backdrop_texels(const DipBackdrop *levels);
+
+// Returns how many pixels around its own position a fragment of a surface of this roughness, 0..1,
+// may read, in a picture of this size.
+int dip_backdrop_margin(int width, int height, double roughness);
 
 #endif

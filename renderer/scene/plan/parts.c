@@ -2,7 +2,7 @@
 // the borders of tiles, and the part must contain the piece of each shape in the tile.
 #include "renderer/scene/plan/parts.h"
 
-#include "renderer/scene/plan/extent.h"
+#include "renderer/scene/view/extent.h"
 
 #include <string.h>
 

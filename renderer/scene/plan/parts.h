@@ -4,7 +4,7 @@
 #define DIP_RENDERER_SCENE_PLAN_PARTS_H
 
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draw/view.h"
+#include "renderer/scene/view/view.h"
 
 typedef struct DipParts {
     DipTileRegion *tiles; // one per tile of the picture, row by row

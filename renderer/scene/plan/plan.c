@@ -1,9 +1,9 @@
 // Decides the effects of a frame, with one function for each effect.
 #include "renderer/scene/plan/plan.h"
 
-#include "renderer/scene/draw/backdrop.h"
-#include "renderer/scene/plan/extent.h"
+#include "renderer/scene/materials/backdrop.h"
 #include "renderer/scene/resources/scene_layout.h"
+#include "renderer/scene/view/extent.h"
 
 static const char forced[] = "all effects are forced";
 static const char plain[] = "surfaces are drawn plain";

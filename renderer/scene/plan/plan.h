@@ -10,12 +10,12 @@
 
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/plan/parts.h"
 #include "renderer/scene/quality.h"
 #include "renderer/scene/reflection.h"
 #include "renderer/scene/scene.h"
+#include "renderer/scene/view/view.h"
 
 #include <stdbool.h>
 

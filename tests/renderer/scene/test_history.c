@@ -3,8 +3,8 @@
 // takes, and that its frames do not depend on threads, instruction sets or the frames before.
 #include "renderer/catalogue/scenes.h"
 #include "renderer/post/history.h"
-#include "renderer/scene/draw/view.h"
 #include "renderer/scene/renderer.h"
+#include "renderer/scene/view/view.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 // Computes a camera's matrices in double precision.
-#include "renderer/scene/draw/view.h"
+#include "renderer/scene/view/view.h"
 
 #include "renderer/base/trig.h"
 

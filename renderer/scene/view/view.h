@@ -1,7 +1,7 @@
 // A camera as matrices: its view of the world and of the mirrored world, and planes in its clip
 // space.
-#ifndef DIP_RENDERER_SCENE_DRAW_VIEW_H
-#define DIP_RENDERER_SCENE_DRAW_VIEW_H
+#ifndef DIP_RENDERER_SCENE_VIEW_VIEW_H
+#define DIP_RENDERER_SCENE_VIEW_VIEW_H
 
 #include "renderer/scene/pose.h"
 

@@ -1,10 +1,10 @@
 // The part of the picture that boxes and triangles in the world can touch.
-#ifndef DIP_RENDERER_SCENE_PLAN_EXTENT_H
-#define DIP_RENDERER_SCENE_PLAN_EXTENT_H
+#ifndef DIP_RENDERER_SCENE_VIEW_EXTENT_H
+#define DIP_RENDERER_SCENE_VIEW_EXTENT_H
 
 #include "renderer/pipeline/mesh.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/scene/draw/view.h"
+#include "renderer/scene/view/view.h"
 
 #include <stdbool.h>
 

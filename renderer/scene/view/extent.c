@@ -1,5 +1,5 @@
 // Projects shapes and finds the rectangle of the picture that they can touch.
-#include "renderer/scene/plan/extent.h"
+#include "renderer/scene/view/extent.h"
 
 DipExtent dip_extent_none(void) {
     return (DipExtent){{1e300, 1e300}, {-1e300, -1e300}};
