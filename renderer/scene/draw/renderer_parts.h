@@ -1,5 +1,5 @@
 // The inside of a renderer, shared by the code that creates it (renderer.c) and the code that draws
-// its frames (draw/frame_setup.c).
+// its frames (draw/frames.c).
 #ifndef DIP_RENDERER_SCENE_DRAW_RENDERER_PARTS_H
 #define DIP_RENDERER_SCENE_DRAW_RENDERER_PARTS_H
 
