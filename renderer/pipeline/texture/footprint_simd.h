@@ -1,6 +1,6 @@
 // Footprints: the areas of a texture that fragments cover. This file finds a footprint's level of
-// detail and its probes (the bilinear reads along its long axis) for sample_simd.c. docs/picture.md
-// (Textures) has the definitions.
+// detail and its probes (the bilinear reads along its long axis) for read_list_simd.h.
+// docs/picture.md (Textures) has the definitions.
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_FOOTPRINT_SIMD_H
 
