@@ -25,7 +25,9 @@ enum {
     // Most tiles that a binned triangle may touch. A triangle that touches more tiles goes to its
     // job's bin of wide triangles.
     DIP_MAX_BIN_TILES = 16,
-    DIP_BIN_BLOCK = 15, // number of triangles in a block
+    DIP_BIN_BLOCK = 15,      // number of triangles in a block
+    DIP_TRIANGLE_RUN = 1024, // number of triangles for which a job takes space at a time
+    DIP_BLOCK_RUN = 32,      // number of bin blocks that a job takes at a time
     // Number of bins of a job: one for each tile of the largest target, and one for wide triangles.
     DIP_MAX_BINS = DIP_MAX_TARGET_SIZE / DIP_TILE * (DIP_MAX_TARGET_SIZE / DIP_TILE) + 1,
     DIP_BIN_WORDS = (DIP_MAX_BINS + 63) / 64, // number of 64-bit words that hold one bit per bin
@@ -120,6 +122,12 @@ typedef struct DipGeometryScratch {
 // Returns the number of tiles of the target.
 static inline size_t dip_geometry_tiles(const DipGeometry *geometry) {
     return (size_t)geometry->tiles_x * (size_t)geometry->tiles_y;
+}
+
+// Whether the pass draws anything of a tile: y * tiles_x + x.
+static inline bool dip_geometry_needs_tile(const DipGeometry *geometry, size_t tile) {
+    const DipTileRegion *parts = geometry->pass->tile_regions;
+    return !parts || parts[tile].x1;
 }
 
 // Returns one of a job's bins, or NULL if it is empty. Bins 0..dip_geometry_tiles - 1 belong to the
