@@ -1,5 +1,4 @@
-// The pipeline: runs the geometry jobs of one or several passes, then draws their tiles, and adds
-// up their work and times.
+// The pipeline: runs the geometry jobs of one or several passes, then draws their tiles.
 #include "renderer/pipeline/pipeline.h"
 
 #include "renderer/base/fp_mode.h"
@@ -9,6 +8,7 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/merge/merge_tile.h"
 #include "renderer/pipeline/run/pass_check.h"
+#include "renderer/pipeline/run/pass_results.h"
 #include "renderer/pipeline/run/tile_worker.h"
 
 #include <stdatomic.h>
@@ -169,116 +169,6 @@ static bool run_geometry(DipPipeline *pipeline, const DipPass *const *passes, in
     return true;
 }
 
-// --- what a pass did ---------------------------------------------------------------------------
-
-static void add_geometry_counters(const DipGeometry *geometry, DipPipelineCounters *counters) {
-    counters->draws_in_view += geometry->draws_in_view;
-    counters->draws_culled += geometry->draws_culled;
-    for (int j = 0; j < geometry->job_count; j++) {
-        counters->triangles_in += geometry->jobs[j].triangles_in;
-        counters->triangles_drawn += geometry->jobs[j].triangles_drawn;
-        counters->tile_triangles += geometry->jobs[j].tile_triangles;
-    }
-}
-
-static void add_tile_counters(const DipTileWork *work, DipPipelineCounters *counters) {
-    counters->sub_blocks_tested += work->sub_blocks_tested;
-    counters->sub_blocks_accepted += work->sub_blocks_accepted;
-    counters->fragments_clip_tested += work->clip_tested;
-    counters->clip_sample_groups += work->clip_sample_groups;
-    counters->fragments_shaded += work->fragments;
-    counters->fragments_copied += work->copied_fragments;
-    counters->fragments_of_blocks += work->block_fragments;
-    counters->shader_batches += work->batches;
-    counters->fragments_ordered += work->ordered_fragments;
-    counters->samples_shown += work->samples;
-    counters->pixels_resolved += work->multi_fragment_pixels;
-    counters->texture_probes += work->sampling.probes;
-    counters->clip_probes += work->clip_probes;
-    counters->texels_fetched += work->sampling.texels;
-    for (int i = 0; i < DIP_SHADER_COUNT_MAX; i++) {
-        counters->shader_counts[i] += work->sampling.counts[i];
-    }
-}
-
-// Returns the bytes that the pass writes to each pixel of its target.
-static uint64_t stored_bytes(const DipPass *pass) {
-    if (!dip_pass_stores_target(pass)) {
-        return 0;
-    }
-    switch (pass->target.format) {
-    case DIP_FORMAT_RGBA32F:
-        return 16;
-    case DIP_FORMAT_CALLER:
-        return 0; // the caller's memory is not known
-    default:
-        return 4;
-    }
-}
-
-static void add_counters(const DipPipeline *pipeline, DipPipelineCounters *counters) {
-    const DipTarget *target = &pipeline->tile_pass.pass->target;
-    const DipGeometry *geometry = pipeline->tile_pass.geometry;
-    const int tiles = geometry->tile_count;
-    counters->passes++;
-    counters->target_bytes +=
-        stored_bytes(pipeline->tile_pass.pass) * (uint64_t)target->width * (uint64_t)target->height;
-    counters->tiles_drawn += (uint64_t)tiles;
-    counters->tiles_spared += dip_geometry_tiles(geometry) - (uint64_t)tiles;
-    add_geometry_counters(geometry, counters);
-    for (int t = 0; t < tiles; t++) {
-        add_tile_counters(&pipeline->tile_work[geometry->tiles[t]], counters);
-    }
-}
-
-// Writes the records of the tiles of the pass that was drawn last.
-static void record_tiles(const DipPipeline *pipeline) {
-    const DipGeometry *geometry = pipeline->tile_pass.geometry;
-    DipTileRecord *records = pipeline->recording.tiles;
-    if (!records) {
-        return;
-    }
-    memset(records, 0, dip_geometry_tiles(&pipeline->geometry) * sizeof *records);
-    for (int t = 0; t < geometry->tile_count; t++) {
-        const int index = geometry->tiles[t];
-        const DipTileWork *work = &pipeline->tile_work[index];
-        records[index].counters.tiles_drawn = 1;
-        add_tile_counters(work, &records[index].counters);
-        records[index].raster_ns = work->stage_ns[DIP_TILE_STAGE_RASTER];
-        records[index].shading_ns = work->stage_ns[DIP_TILE_STAGE_SHADING];
-        records[index].resolve_ns = work->stage_ns[DIP_TILE_STAGE_RESOLVE];
-    }
-}
-
-// The time of each stage, summed over a pass's tiles on all workers.
-typedef struct StageSums {
-    int64_t ns[DIP_TILE_STAGE_COUNT];
-    int64_t total_ns;
-} StageSums;
-
-static StageSums sum_stages(const DipPipeline *pipeline) {
-    const DipGeometry *geometry = pipeline->tile_pass.geometry;
-    StageSums sums = {.total_ns = 0};
-    for (int t = 0; t < geometry->tile_count; t++) {
-        const DipTileWork *work = &pipeline->tile_work[geometry->tiles[t]];
-        for (int s = 0; s < DIP_TILE_STAGE_COUNT; s++) {
-            sums.ns[s] += work->stage_ns[s];
-            sums.total_ns += work->stage_ns[s];
-        }
-    }
-    return sums;
-}
-
-// tile_scale: milliseconds of wall-clock time per nanosecond in `sums`.
-static void add_times(const StageSums *sums, int64_t geometry_ns, double tile_scale,
-                      DipStageTimes *times) {
-    times->geometry_ms += 1e-6 * (double)geometry_ns;
-    times->raster_ms += tile_scale * (double)sums->ns[DIP_TILE_STAGE_RASTER];
-    times->shading_ms += tile_scale * (double)sums->ns[DIP_TILE_STAGE_SHADING];
-    times->resolve_ms += tile_scale * (double)sums->ns[DIP_TILE_STAGE_RESOLVE];
-    times->total_ms += 1e-6 * (double)geometry_ns + tile_scale * (double)sums->total_ns;
-}
-
 // --- drawing passes ----------------------------------------------------------------------------
 
 // Passes that are drawn at once.
@@ -379,23 +269,33 @@ static int greatest_tile_count(const Batch *batch) {
     return greatest;
 }
 
+static void record_tiles(const DipPipeline *pipeline) {
+    DipTileRecord *records = pipeline->recording.tiles;
+    if (records) {
+        memset(records, 0, dip_geometry_tiles(&pipeline->geometry) * sizeof *records);
+        dip_pass_record_tiles(&pipeline->tile_pass, pipeline->tile_work, records);
+    }
+}
+
 // tiles_ns: wall-clock time of drawing the tiles of all passes.
 static void add_results(const Batch *batch, int64_t tiles_ns) {
-    StageSums sums[DIP_MAX_PASSES_AT_ONCE];
+    DipStageSums sums[DIP_MAX_PASSES_AT_ONCE];
     int64_t total_ns = 0;
     for (int i = 0; i < batch->count; i++) {
-        sums[i] = sum_stages(batch->works[i].pipeline);
+        const DipPipeline *pipeline = batch->works[i].pipeline;
+        sums[i] = dip_pass_sum_stages(&pipeline->tile_pass, pipeline->tile_work);
         total_ns += sums[i].total_ns;
     }
     const double scale = total_ns ? 1e-6 * (double)tiles_ns / (double)total_ns : 0.0;
     for (int i = 0; i < batch->count; i++) {
         const DipPassWork *work = &batch->works[i];
         if (work->counters) {
-            add_counters(work->pipeline, work->counters);
+            dip_pass_add_counters(&work->pipeline->tile_pass, work->pipeline->tile_work,
+                                  work->counters);
         }
         record_tiles(work->pipeline);
         if (work->times) {
-            add_times(&sums[i], batch->geometry_ns[i], scale, work->times);
+            dip_pass_add_times(&sums[i], batch->geometry_ns[i], scale, work->times);
         }
     }
 }
