@@ -22,13 +22,11 @@ typedef struct Plane {
 
 typedef struct Converging {
     const DipReference *reference;
-    const DipPose *pose;
     DipRefTriangles triangles;
     Plane plane;
     const struct Converging *mirrored; // the mirrored scene at the same positions, or NULL
     const DipRefBackdrop *backdrop;    // what rough glass shows blurred; NULL: it shows it sharp
-    int width;
-    int height;
+    DipRefShot shot;
 } Converging;
 
 // A bijection of 64-bit numbers in which each output bit depends on all input bits (the finaliser
@@ -58,9 +56,9 @@ bool dip_reference_check_samples(int sample_count, int *side, DipError *err) {
 
 static void start_plane(Converging *c, int index, int side, uint32_t seed) {
     Plane *plane = &c->plane;
-    for (int y = 0; y < c->height; y++) {
-        for (int x = 0; x < c->width; x++) {
-            const size_t pixel = (size_t)y * (size_t)c->width + (size_t)x;
+    for (int y = 0; y < c->shot.height; y++) {
+        for (int x = 0; x < c->shot.width; x++) {
+            const size_t pixel = (size_t)y * (size_t)c->shot.width + (size_t)x;
             dip_reference_sample_position(index, side, seed, pixel, x, y, &plane->x[pixel],
                                           &plane->y[pixel]);
             plane->depths[pixel] = 0.0;
@@ -113,7 +111,7 @@ static void draw_triangles(Converging *c, bool blended) {
         }
         for (int y = triangle->min_y; y <= triangle->max_y; y++) {
             for (int x = triangle->min_x; x <= triangle->max_x; x++) {
-                draw_in_pixel(c, (int32_t)t, (size_t)y * (size_t)c->width + (size_t)x);
+                draw_in_pixel(c, (int32_t)t, (size_t)y * (size_t)c->shot.width + (size_t)x);
             }
         }
     }
@@ -130,8 +128,7 @@ static void shade_surface(const Converging *c, size_t pixel, const DipRefPositio
     if (c->mirrored && place->triangle->water) {
         double mirrored[3];
         find_colour(c->mirrored, pixel, mirrored);
-        dip_reference_blend_water(c->reference, c->pose, c->width, c->height, place, mirrored,
-                                  rgba);
+        dip_reference_blend_water(c->reference, &c->shot, place, mirrored, rgba);
     }
     dip_reference_see_through(place, NULL, c->backdrop, rgba);
 }
@@ -164,7 +161,7 @@ static void find_colour(const Converging *c, size_t pixel, double rgb[3]) {
 // Blends the farthest surface that is left in each pixel. Returns false if none is left anywhere.
 static bool blend_next(Converging *c) {
     bool any = false;
-    for (size_t pixel = 0; pixel < (size_t)c->width * (size_t)c->height; pixel++) {
+    for (size_t pixel = 0; pixel < (size_t)c->shot.width * (size_t)c->shot.height; pixel++) {
         DipRefPeel *peel = &c->plane.peels[pixel];
         if (peel->next != NOTHING) {
             const DipRefPosition place =
@@ -180,7 +177,7 @@ static bool blend_next(Converging *c) {
 
 static void draw_plane(Converging *c) {
     draw_triangles(c, false);
-    for (size_t pixel = 0; c->plane.peels && pixel < (size_t)c->width * (size_t)c->height;
+    for (size_t pixel = 0; c->plane.peels && pixel < (size_t)c->shot.width * (size_t)c->shot.height;
          pixel++) {
         double rgb[3];
         shade(c, pixel, rgb);
@@ -194,7 +191,7 @@ static void draw_plane(Converging *c) {
 }
 
 static void add_plane(const Converging *c, double weight, double *rgb_lin) {
-    const size_t pixel_count = (size_t)c->width * (size_t)c->height;
+    const size_t pixel_count = (size_t)c->shot.width * (size_t)c->shot.height;
     for (size_t pixel = 0; pixel < pixel_count; pixel++) {
         double rgb[3];
         find_colour(c, pixel, rgb);
@@ -205,7 +202,7 @@ static void add_plane(const Converging *c, double weight, double *rgb_lin) {
 }
 
 static bool make_plane(Converging *c, DipError *err) {
-    const size_t count = (size_t)c->width * (size_t)c->height;
+    const size_t count = (size_t)c->shot.width * (size_t)c->shot.height;
     Plane *plane = &c->plane;
     plane->x = malloc(count * sizeof *plane->x);
     plane->y = malloc(count * sizeof *plane->y);
@@ -219,8 +216,8 @@ static bool make_plane(Converging *c, DipError *err) {
            dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for %zu samples", count);
 }
 
-static bool start(Converging *c, const DipRefShot *shot, DipError *err) {
-    return dip_reference_build_triangles(c->reference, shot, &c->triangles, err) &&
+static bool start(Converging *c, DipError *err) {
+    return dip_reference_build_triangles(c->reference, &c->shot, &c->triangles, err) &&
            make_plane(c, err);
 }
 
@@ -241,7 +238,7 @@ static void add_backdrop_plane(Converging *c, Converging *mirrored, int index, d
     }
     start_plane(c, index, BACKDROP_SIDE, 0);
     draw_triangles(c, false);
-    for (size_t pixel = 0; pixel < (size_t)c->width * (size_t)c->height; pixel++) {
+    for (size_t pixel = 0; pixel < (size_t)c->shot.width * (size_t)c->shot.height; pixel++) {
         double rgb[3];
         shade(c, pixel, rgb);
         for (size_t i = 0; i < 3; i++) {
@@ -254,7 +251,7 @@ static void add_backdrop_plane(Converging *c, Converging *mirrored, int index, d
 // dip_reference_converge, or NULL.
 static bool converge_backdrop(Converging *c, Converging *mirrored, DipRefBackdrop **backdrop,
                               DipError *err) {
-    double *rgb_lin = calloc((size_t)c->width * (size_t)c->height * 3, sizeof *rgb_lin);
+    double *rgb_lin = calloc((size_t)c->shot.width * (size_t)c->shot.height * 3, sizeof *rgb_lin);
     bool drawn = rgb_lin != NULL;
     for (int s = 0; drawn && s < BACKDROP_SIDE * BACKDROP_SIDE; s++) {
         add_backdrop_plane(c, mirrored, s, rgb_lin);
@@ -263,7 +260,8 @@ static bool converge_backdrop(Converging *c, Converging *mirrored, DipRefBackdro
             return false;
         }
     }
-    *backdrop = drawn ? dip_reference_backdrop_create(rgb_lin, c->width, c->height) : NULL;
+    *backdrop =
+        drawn ? dip_reference_backdrop_create(rgb_lin, c->shot.width, c->shot.height) : NULL;
     free(rgb_lin);
     return *backdrop ||
            dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for rough glass");
@@ -271,17 +269,17 @@ static bool converge_backdrop(Converging *c, Converging *mirrored, DipRefBackdro
 
 bool dip_reference_converge_backdrop(const DipReference *reference, const DipPose *pose, int width,
                                      int height, DipRefBackdrop **backdrop, DipError *err) {
-    DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
-    Converging mirrored = {.reference = reference, .pose = pose, .width = width, .height = height};
-    Converging c = mirrored;
+    Converging c = {.reference = reference,
+                    .shot = {pose, width, height, (double)width / height, .shadows = true}};
+    Converging mirrored = c;
+    mirrored.shot.mirrored = true;
     *backdrop = NULL;
-    bool drawn = dip_reference_build_triangles(reference, &shot, &c.triangles, err);
+    bool drawn = dip_reference_build_triangles(reference, &c.shot, &c.triangles, err);
     if (drawn && c.triangles.has_scattering) {
         drawn = make_plane(&c, err);
         if (drawn && c.triangles.has_water && dip_reference_reflects(reference, pose)) {
-            shot.mirrored = true;
             c.mirrored = &mirrored;
-            drawn = start(&mirrored, &shot, err);
+            drawn = start(&mirrored, err);
         }
         drawn = drawn && converge_backdrop(&c, c.mirrored ? &mirrored : NULL, backdrop, err);
     }
@@ -301,18 +299,18 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
     if (!dip_reference_check_frame(reference, width, height, err)) {
         return false;
     }
-    DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
-    Converging mirrored = {.reference = reference, .pose = pose, .width = width, .height = height};
-    Converging c = mirrored;
+    Converging c = {.reference = reference,
+                    .shot = {pose, width, height, (double)width / height, .shadows = true}};
+    Converging mirrored = c;
+    mirrored.shot.mirrored = true;
     DipRefBackdrop *backdrop = NULL;
     bool converged =
         dip_reference_converge_backdrop(reference, pose, width, height, &backdrop, err) &&
-        start(&c, &shot, err);
+        start(&c, err);
     c.backdrop = backdrop;
     if (converged && dip_reference_reflects(reference, pose)) {
-        shot.mirrored = true;
         c.mirrored = &mirrored;
-        converged = start(&mirrored, &shot, err);
+        converged = start(&mirrored, err);
     }
     for (size_t i = 0; converged && i < (size_t)width * (size_t)height * 3; i++) {
         rgb_lin[i] = 0.0;

@@ -23,12 +23,11 @@ typedef struct Bins {
 struct DipConvergence {
     const DipReference *reference;
     DipPose pose;
+    DipRefShot shot; // its pose is the copy above
     DipConvergence *mirrored; // the same frame of the mirrored scene, which water shows; or NULL
     DipRefBackdrop *backdrop; // what rough glass shows blurred; NULL: it shows it sharp
     DipRefTriangles triangles;
     Bins bins;
-    int width;
-    int height;
     int tiles_x;
     int tiles_y;
 };
@@ -104,10 +103,10 @@ static DipConvergence *create(const DipReference *reference, const DipRefShot *s
     }
     c->reference = reference;
     c->pose = *shot->pose;
-    c->width = shot->width;
-    c->height = shot->height;
-    c->tiles_x = (c->width + TILE - 1) / TILE;
-    c->tiles_y = (c->height + TILE - 1) / TILE;
+    c->shot = *shot;
+    c->shot.pose = &c->pose;
+    c->tiles_x = (c->shot.width + TILE - 1) / TILE;
+    c->tiles_y = (c->shot.height + TILE - 1) / TILE;
     bool made = dip_reference_build_triangles(reference, shot, &c->triangles, err);
     if (made && !make_bins(c)) {
         made = !dip_reference_stopped(reference, err) &&
@@ -173,8 +172,8 @@ static bool make_samples(const DipConvergence *c, int tile, int per_pixel, Sampl
         .per_pixel = per_pixel,
         .x0 = x0,
         .y0 = y0,
-        .x1 = x0 + TILE < c->width ? x0 + TILE : c->width,
-        .y1 = y0 + TILE < c->height ? y0 + TILE : c->height,
+        .x1 = x0 + TILE < c->shot.width ? x0 + TILE : c->shot.width,
+        .y1 = y0 + TILE < c->shot.height ? y0 + TILE : c->shot.height,
         .memory = memory,
     };
     if (memory) {
@@ -197,7 +196,7 @@ static size_t first_of(const Samples *samples, int x, int y) {
 static void place_samples(Samples *samples, int side, uint32_t seed) {
     for (int y = samples->y0; y < samples->y1; y++) {
         for (int x = samples->x0; x < samples->x1; x++) {
-            const size_t pixel = (size_t)y * (size_t)samples->convergence->width + (size_t)x;
+            const size_t pixel = (size_t)y * (size_t)samples->convergence->shot.width + (size_t)x;
             const size_t first = first_of(samples, x, y);
             for (int s = 0; s < samples->per_pixel; s++) {
                 const size_t i = first + (size_t)s;
@@ -342,8 +341,7 @@ static void shade_surface(const Samples *samples, size_t i, const DipRefPosition
     if (samples->mirrored && place->triangle->water) {
         double mirrored[3];
         find_colour(samples->mirrored, i, mirrored);
-        dip_reference_blend_water(c->reference, &c->pose, c->width, c->height, place, mirrored,
-                                  rgba);
+        dip_reference_blend_water(c->reference, &c->shot, place, mirrored, rgba);
     }
     dip_reference_see_through(place, NULL, c->backdrop, rgba);
 }
@@ -527,7 +525,7 @@ bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int s
     blend_samples(&samples, tile);
     for (int y = samples.y0; y < samples.y1; y++) {
         for (int x = samples.x0; x < samples.x1; x++) {
-            const size_t pixel = (size_t)y * (size_t)convergence->width + (size_t)x;
+            const size_t pixel = (size_t)y * (size_t)convergence->shot.width + (size_t)x;
             const size_t first = first_of(&samples, x, y);
             shade_pixel(&samples, first, share, rgb_lin + 3 * pixel);
             if (classes) {

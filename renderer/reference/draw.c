@@ -262,8 +262,7 @@ static void shade(const Drawing *drawing, int32_t surface, int x, int y, unsigne
         double mirrored[3];
         dip_reference_read_mirrored(drawing->mirrored, drawing->mirrored_size, drawing->width,
                                     drawing->height, &place, mirrored);
-        dip_reference_blend_water(drawing->reference, drawing->shot.pose, drawing->width,
-                                  drawing->height, &place, mirrored, rgba);
+        dip_reference_blend_water(drawing->reference, &drawing->shot, &place, mirrored, rgba);
     }
     dip_reference_see_through(&place, filter_of(drawing, triangle), drawing->backdrop, rgba);
 }

@@ -11,13 +11,13 @@ bool dip_reference_reflects(const DipReference *reference, const DipPose *pose) 
 }
 
 // Returns the world y of the unit vector from the eye through a position of the frame.
-static double look_up(const DipPose *pose, int width, int height, const DipRefPosition *place) {
-    const double half = tan(pose->fov_y_deg * (pi / 360.0));
-    const double ray[3] = {(place->x / (128.0 * width) - 1.0) * half * width / height,
-                           (1.0 - place->y / (128.0 * height)) * half, -1.0};
+static double look_up(const DipRefShot *shot, const DipRefPosition *place) {
+    const double half = tan(shot->pose->fov_y_deg * (pi / 360.0));
+    const double ray[3] = {(place->x / (128.0 * shot->width) - 1.0) * half * shot->aspect,
+                           (1.0 - place->y / (128.0 * shot->height)) * half, -1.0};
     // The quaternion turns v to v + 2 q x (q x v + w v). This is the y of the result.
     double q[4];
-    dip_reference_orientation(pose, q);
+    dip_reference_orientation(shot->pose, q);
     const double cross[3] = {q[1] * ray[2] - q[2] * ray[1] + q[3] * ray[0],
                              q[2] * ray[0] - q[0] * ray[2] + q[3] * ray[1],
                              q[0] * ray[1] - q[1] * ray[0] + q[3] * ray[2]};
@@ -42,10 +42,10 @@ static double schlick(double cos_in) {
     return straight + (1.0 - straight) * pow(1.0 - cos_in, 5.0);
 }
 
-void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
-                               int height, const DipRefPosition *place, const double mirrored[3],
+void dip_reference_blend_water(const DipReference *reference, const DipRefShot *shot,
+                               const DipRefPosition *place, const double mirrored[3],
                                double rgba[4]) {
-    const double down = -look_up(pose, width, height, place);
+    const double down = -look_up(shot, place);
     if (down <= 0.0) {
         return;
     }

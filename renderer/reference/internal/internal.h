@@ -306,8 +306,8 @@ bool dip_reference_reflects(const DipReference *reference, const DipPose *pose);
 // Blends water's own colour, rgba, with the colour of the mirrored scene at the same position of
 // the frame. rgba[3] is the share of what lies behind that the water's own colour covers. It
 // becomes the share that colour and reflection cover.
-void dip_reference_blend_water(const DipReference *reference, const DipPose *pose, int width,
-                               int height, const DipRefPosition *place, const double mirrored[3],
+void dip_reference_blend_water(const DipReference *reference, const DipRefShot *shot,
+                               const DipRefPosition *place, const double mirrored[3],
                                double rgba[4]);
 
 // Reads the colour of the mirrored scene at a position of the frame, bilinearly from the mirrored

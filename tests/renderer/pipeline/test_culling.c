@@ -530,9 +530,27 @@ static void mean_of(Random *random, int count, double (*corners)[3], double worl
     }
 }
 
+// Checks random points of a shape that has been added to the parts. Returns how many are in the
+// picture.
+static int check_parts(Random *random, const DipView *view, int count, double (*corners)[3],
+                       const DipTileRegion *tiles) {
+    enum { MEANS = 300 };
+    int seen = 0;
+    for (int k = 0; k < MEANS; k++) {
+        double world[3];
+        double at[2];
+        mean_of(random, count, corners, world);
+        if (project_point(view, world, at)) {
+            assert_in_parts(tiles, at);
+            seen++;
+        }
+    }
+    return seen;
+}
+
 static void tile_parts_contain_everything_visible(void **state) {
     (void)state;
-    enum { SHAPES = 6000, MEANS = 300 };
+    enum { SHAPES = 6000 };
     Random random = {99};
     DipTileRegion tiles[PARTS];
     const DipParts parts = {tiles, WIDTH, HEIGHT, MARGIN};
@@ -550,20 +568,43 @@ static void tile_parts_contain_everything_visible(void **state) {
             dip_parts_add_box(&parts, &view, (const double(*)[3])corners);
         }
         area += count == 3 ? area_of(tiles) : 0;
-        for (int k = 0; k < MEANS; k++) {
-            double world[3];
-            double at[2];
-            mean_of(&random, count, corners, world);
-            if (project_point(&view, world, at)) {
-                assert_in_parts(tiles, at);
-                seen++;
-            }
-        }
+        seen += check_parts(&random, &view, count, corners, tiles);
     }
     printf("%d points seen, the triangles' parts hold %.1f %% of the picture\n", seen,
            100.0 * (double)area / ((double)SHAPES / 2 * WIDTH * HEIGHT));
     assert_true(seen > 100000);
     assert_true(area < (uint64_t)SHAPES / 2 * WIDTH * HEIGHT / 10);
+}
+
+// With a near plane next to the eye, the corners that it cuts lie up to 2^60 pixels away.
+static void tile_parts_of_huge_triangles_contain_everything_visible(void **state) {
+    (void)state;
+    enum { TRIANGLES = 3000 };
+    Random random = {77};
+    DipTileRegion tiles[PARTS];
+    const DipParts parts = {tiles, WIDTH, HEIGHT, MARGIN};
+    int seen = 0;
+    for (int i = 0; i < TRIANGLES; i++) {
+        DipView view = random_view(&random);
+        view.near_m = 1e-12;
+        double corners[3][3];
+        double passed[3]; // a point of the triangle, which is put within a metre of the eye
+        const double size = pow(10.0, random_real(&random, 3.0, 6.0));
+        for (int k = 0; k < 9; k++) {
+            corners[k / 3][k % 3] = random_real(&random, -size, size);
+        }
+        mean_of(&random, 3, corners, passed);
+        for (int c = 0; c < 3; c++) {
+            const double move = view.eye[c] + random_real(&random, -1.0, 1.0) - passed[c];
+            for (int k = 0; k < 3; k++) {
+                corners[k][c] += move;
+            }
+        }
+        dip_parts_clear(&parts);
+        dip_parts_add_triangle(&parts, &view, (const double(*)[3])corners);
+        seen += check_parts(&random, &view, 3, corners, tiles);
+    }
+    assert_true(seen > 50000);
 }
 
 // --- more memory than first allocated ----------------------------------------------------------
@@ -658,6 +699,7 @@ int main(void) {
         cmocka_unit_test(a_region_equals_the_same_part_of_the_whole_picture),
         cmocka_unit_test(culling_keeps_everything_visible),
         cmocka_unit_test(tile_parts_contain_everything_visible),
+        cmocka_unit_test(tile_parts_of_huge_triangles_contain_everything_visible),
         cmocka_unit_test(each_plane_culls_by_itself),
         cmocka_unit_test(clipping_can_double_the_triangles),
         cmocka_unit_test(many_triangles_can_lie_in_many_tiles),
