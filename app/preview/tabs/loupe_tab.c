@@ -278,7 +278,7 @@ static void handle_crop(Part *part, const DipLoupeCrop *crop) {
     } else if (input.steps && input.hovered) {
         dip_loupe_zoom(tools, input.steps);
     } else if (input.steps) {
-        dip_loupe_move(tools, input.steps, 0, frame->width, frame->height);
+        dip_tool_state_zoom(tools, input.steps);
     }
 }
 

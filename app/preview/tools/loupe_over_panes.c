@@ -54,7 +54,7 @@ static void handle_panes(DipWindow *window, const DipUiInput panes[DIP_PANE_COUN
         }
         if (input->steps && (input->modifiers & DIP_MODIFIER_CTRL)) {
             tools->loupe = true;
-            dip_loupe_zoom(tools, input->steps);
+            dip_tool_state_zoom(tools, input->steps);
         }
     }
 }

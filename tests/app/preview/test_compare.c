@@ -303,19 +303,35 @@ static void test_position_tells_the_pane_and_the_pixel(void **state) {
 static void test_brackets_move_the_divider_or_the_gain(void **state) {
     (void)state;
     DipToolState tools = {.comparison = DIP_COMPARE_WIPE, .divider = 0.5};
-    assert_true(dip_compare_adjust(&tools, -8));
+    assert_true(dip_tool_state_adjust(&tools, -8));
     assert_true(fabs(tools.divider - 0.375) < 1e-12);
-    dip_compare_adjust(&tools, -1000);
+    dip_tool_state_adjust(&tools, -1000);
     assert_true(tools.divider <= 0.0);
     tools.comparison = DIP_COMPARE_DIFFERENCE;
-    dip_compare_adjust(&tools, 3);
+    dip_tool_state_adjust(&tools, 3);
     assert_int_equal(tools.gain, 8);
-    dip_compare_adjust(&tools, 30);
+    dip_tool_state_adjust(&tools, 30);
     assert_int_equal(tools.gain, DIP_COMPARE_MAX_GAIN);
-    dip_compare_adjust(&tools, -30);
+    dip_tool_state_adjust(&tools, -30);
     assert_int_equal(tools.gain, 1);
     tools.comparison = DIP_COMPARE_SIDE_BY_SIDE;
-    assert_false(dip_compare_adjust(&tools, 1));
+    assert_false(dip_tool_state_adjust(&tools, 1));
+}
+
+// The keys [ and ] and the slider of the tab move the divider by the same step, and change the gain
+// alike. Side by side, they change nothing.
+static void test_keys_step_as_the_slider_does(void **state) {
+    (void)state;
+    for (int comparison = 0; comparison < DIP_COMPARISON_COUNT; ++comparison) {
+        for (int back = 0; back < 2; ++back) {
+            DipToolState expected = {
+                .comparison = (DipComparison)comparison, .divider = 0.5, .gain = 8};
+            tw.state.tools = expected;
+            dip_tool_state_adjust(&expected, back ? -1 : 1);
+            dip_preview_act(&tw.state, DIP_ACTION_ADJUST, 0, back, 0);
+            assert_memory_equal(&tw.state.tools, &expected, sizeof expected);
+        }
+    }
 }
 
 // --- the strip -----------------------------------------------------------------------------------
@@ -367,3 +383,4 @@ int main(void) {
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
+        IN_WINDOW(test_keys_step_as_the_slider_does),

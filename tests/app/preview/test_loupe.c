@@ -100,11 +100,11 @@ static void test_positions_and_marks_agree_with_scaled_panes(void **state) {
 static void test_zoom_and_moves_stay_in_range(void **state) {
     (void)state;
     DipToolState tools = {.zoom = 8, .x = 3, .y = 3};
-    dip_loupe_zoom(&tools, 9);
+    dip_tool_state_zoom(&tools, 9);
     assert_int_equal(tools.zoom, DIP_LOUPE_MAX_ZOOM);
-    dip_loupe_zoom(&tools, -2);
+    dip_tool_state_zoom(&tools, -2);
     assert_int_equal(tools.zoom, 8);
-    dip_loupe_zoom(&tools, -9);
+    dip_tool_state_zoom(&tools, -9);
     assert_int_equal(tools.zoom, DIP_LOUPE_MIN_ZOOM);
     dip_loupe_move(&tools, -5, 1, 10, 8);
     assert_true(tools.pinned && tools.x == 0 && tools.y == 4);
