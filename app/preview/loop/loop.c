@@ -33,7 +33,6 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->drawn_quality[p] = dip_painter_quality(def->session->renderers[p]);
     }
-    memcpy(preview->first_quality, preview->drawn_quality, sizeof preview->first_quality);
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
     preview->state.choice = &preview->choice;

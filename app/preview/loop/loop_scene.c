@@ -46,14 +46,13 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-static void follow_settings_of(const DipSession *session, DipPreviewState *state,
-                               DipQuality first_quality[DIP_PANE_COUNT]) {
+static void follow_settings_of(const DipSession *session, DipPreviewState *state) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality begun = dip_painter_quality(session->renderers[p]);
-        if (memcmp(&begun, &first_quality[p], sizeof begun) != 0) {
+        if (memcmp(&begun, &state->begun_quality[p], sizeof begun) != 0) {
             state->quality[p] = begun;
         }
-        first_quality[p] = begun;
+        state->begun_quality[p] = begun;
     }
 }
 
@@ -94,7 +93,7 @@ static void hand_over(DipPreview *preview, bool dropped) {
         const double fps = session->config.target_fps;
         dip_preview_set_budget(state, fps > 0.0 ? 1000.0 / fps : 0.0);
     }
-    follow_settings_of(session, state, preview->first_quality);
+    follow_settings_of(session, state);
     follow_track(session, state, &before, dropped);
     state->shows_gallery = session->shows_gallery;
     state->look = session->shows_gallery ? session->options->look : 0;

@@ -390,7 +390,7 @@ static void each_preset_has_its_own_settings(void **state) {
     }
     f->state.choice = NULL;
     const DipQuality other = parse("aa=6");
-    f->state.ini_quality = other;
+    f->state.begun_quality[DIP_PANE_REQUESTED] = other;
     press(f, DIP_ACTION_PRESET, DIP_PRESET_INI, false);
     assert_memory_equal(&f->state.quality[DIP_PANE_REQUESTED], &other, sizeof other);
     press(f, DIP_ACTION_PRESET, DIP_PRESET_CURRENT, false);
