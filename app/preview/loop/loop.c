@@ -129,6 +129,7 @@ static DipPreviewMoment moment_of(DipPreview *preview, int64_t now_ns) {
         .prices = preview->prices,
         .panes = preview->frame.panes,
         .picture = dip_view_picture(preview->view),
+        .layout = dip_preview_layout(preview),
         .drawn = preview->picture_number != 0 && !preview->redraw && !preview->resized &&
                  preview->state.scene_changes == preview->drawn_changes,
         .now_ns = now_ns,
