@@ -347,6 +347,7 @@ static void test_strip_is_drawn_one_thumbnail_at_a_time(void **state) {
         for (int later = i + 1; later < DIP_STRIP_COUNT; later++) {
             assert_int_equal(dip_strip_thumbnail(strip, later).picture.width, 0);
         }
+        assert_true((strip->painter != NULL) == (i + 1 < DIP_STRIP_COUNT));
     }
     dip_tool_window_draw(&tw);
     assert_false(dip_tool_window_update(&tw));
@@ -361,6 +362,25 @@ static void test_strip_is_drawn_one_thumbnail_at_a_time(void **state) {
         assert_memory_equal(third.picture.rgba8 + (size_t)y * third.picture.stride_bytes,
                             frame.rgba8 + (size_t)y * frame.stride_bytes, 4 * (size_t)frame.width);
     }
+}
+
+// While nobody looks at an incomplete strip, it keeps its thumbnails but no painter.
+static void test_a_hidden_strip_keeps_no_painter(void **state) {
+    (void)state;
+    DipStrip *strip = &tw.tools->strip;
+    for (int i = 0; i < 3; i++) {
+        dip_tool_window_draw(&tw);
+        assert_true(dip_tool_window_update(&tw));
+    }
+    assert_non_null(strip->painter);
+    tw.state.tools.tab = DIP_TAB_LOUPE;
+    dip_tool_window_draw(&tw);
+    dip_tool_window_update(&tw);
+    assert_null(strip->painter);
+    tw.state.tools.tab = DIP_TAB_COMPARE;
+    dip_tool_window_draw(&tw);
+    assert_true(dip_tool_window_update(&tw));
+    assert_int_equal(strip->drawn, 4);
 }
 
 int main(void) {
@@ -379,8 +399,9 @@ int main(void) {
         IN_WINDOW(test_divider_is_dragged_and_stays_in_the_picture),
         IN_WINDOW(test_position_tells_the_pane_and_the_pixel),
         cmocka_unit_test(test_brackets_move_the_divider_or_the_gain),
+        IN_WINDOW(test_keys_step_as_the_slider_does),
         IN_WINDOW(test_strip_is_drawn_one_thumbnail_at_a_time),
+        IN_WINDOW(test_a_hidden_strip_keeps_no_painter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
-        IN_WINDOW(test_keys_step_as_the_slider_does),
