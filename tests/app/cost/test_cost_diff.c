@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cjson/cJSON.h>
 #include <cmocka.h>
@@ -53,6 +55,54 @@ static bool has_note(const char *part) {
 }
 
 static DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT];
+
+// --- a report and a program ----------------------------------------------------------------------
+
+// Measures the report again with a program that only records its arguments. Writes these and the
+// error.
+static void measure(const DipCostDiffArguments *arguments, char recorded[4096], DipError *err) {
+    char folder[] = "/tmp/test_cost_diff.XXXXXX", program[64], file[64];
+    DipCostReport measured;
+    assert_non_null(mkdtemp(folder));
+    snprintf(program, sizeof program, "%s/program", folder);
+    snprintf(file, sizeof file, "%s/arguments", folder);
+    FILE *out = fopen(program, "w");
+    assert_non_null(out);
+    fprintf(out, "#!/bin/sh\necho \"$@\" >%s\nexit 2\n", file);
+    assert_true(fclose(out) == 0 && chmod(program, 0700) == 0);
+    assert_false(dip_cost_diff_measure_report(arguments, program, &a, &measured, err));
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    recorded[fread(recorded, 1, 4095, in)] = '\0';
+    fclose(in);
+    assert_true(unlink(file) == 0 && unlink(program) == 0 && rmdir(folder) == 0);
+}
+
+// The report knows only the name of a path that --path gave. The program gets this name, with a
+// model, too. If it does not start, the error says what the user may have to add.
+static void a_path_of_the_report_is_asked_for(void **state) {
+    (void)state;
+    char recorded[4096];
+    for (int models = 0; models < 2; models++) {
+        for (int given = 0; given < 3; given++) {
+            DipCostDiffArguments arguments = {
+                .session = {.models = {"m.glb"}, .model_count = models}, .set_count = 1};
+            DipError err = {0};
+            arguments.measure.starts = 2;
+            assert_true(dip_quality_parse("aa=4", &arguments.sets[0].quality, NULL));
+            make();
+            strcpy(a.paths[0], given == 2 ? "AF" : "tour");
+            arguments.session.path = given == 1 ? "far/tour.pth" : NULL;
+            measure(&arguments, recorded, &err);
+            assert_true((strstr(recorded, " --path tour ") != NULL) == (given == 0));
+            assert_true((strstr(recorded, " --path far/tour.pth ") != NULL) == (given == 1));
+            assert_true((strstr(recorded, " --category AF ") != NULL) == (given == 2 && !models));
+            assert_true((strstr(err.message, "\"tour\" of the report, give the path's file or "
+                                             "camera with --path") != NULL) == (given == 0));
+            done();
+        }
+    }
+}
 
 // --- what differs --------------------------------------------------------------------------------
 
@@ -376,6 +426,7 @@ static void doubtful_causes_are_not_sure(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_path_of_the_report_is_asked_for),
         cmocka_unit_test(equal_reports_do_not_differ),
         cmocka_unit_test(one_error_is_named),
         cmocka_unit_test(one_counter_is_named_with_its_rows),
