@@ -182,8 +182,9 @@ typedef struct DipCostReport {
     char processor[DIP_COST_TEXT];
     char isa[16];
     char version[32];
-    char build[33]; // Hash of the program's file.
-    char date[24];  // When the measurement ended: ISO 8601, UTC; "" if unknown.
+    char build[33];      // Hash of the program's file.
+    bool several_builds; // Parts of a merged report come from programs with other hashes.
+    char date[24];       // When the measurement ended: ISO 8601, UTC; "" if unknown.
     int threads;
     int width;  // Pixels.
     int height; // Pixels.

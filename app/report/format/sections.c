@@ -294,6 +294,11 @@ static void write_facts(DipForm *form, const DipCostReport *report) {
     } else {
         dip_form_fact(form, "Version", "Diptych %s", report->version);
     }
+    if (report->several_builds) {
+        dip_form_fact(form, "Warning",
+                      "The parts of this report were measured by different builds of Diptych, so "
+                      "their errors may be those of different pictures.");
+    }
     dip_form_fact(form, "Baseline", "%s", baseline);
     if (report->rounds > 0) {
         dip_form_fact(form, "Times",
