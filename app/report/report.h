@@ -51,7 +51,7 @@ enum {
     // If more combinations than this are predicted, the work of some is not counted, but composed
     // from the work of others (combinations.h).
     DIP_COST_MOST_COUNTED = 256,
-    DIP_COST_TEXT = 160,
+    DIP_COST_TEXT = DIP_SETTINGS_BYTES, // A text may be that of settings.
     DIP_COST_REASON = 512
 };
 

@@ -290,7 +290,7 @@ static void paste_settings(DipPreview *preview, int64_t now_ns) {
 // Copies the requested settings as text to the clipboard, if the user asked for it.
 static void copy_settings(DipPreview *preview, int64_t now_ns) {
     const DipDisplay *display = &preview->def.display;
-    char text[256];
+    char text[DIP_SETTINGS_BYTES];
     if (!preview->state.copy_settings) {
         return;
     }
