@@ -57,6 +57,12 @@ static void the_watch_sees_another_process(void **state) {
     if (own) { // This system tells.
         assert_int_equal(dip_thread_watch_count(watch), 1);
         assert_true(dip_thread_watch_read(watch).cpu_ns > 80000000);
+        // The switches of this process are not those of the other one. The loop ends at the first
+        // switch, or without one on an idle machine.
+        const clock_t begin = clock();
+        while (dip_thread_watch_read(own).switches == 0 && clock() - begin < 3 * CLOCKS_PER_SEC) {
+        }
+        assert_int_equal(dip_thread_watch_read(watch).switches, 0);
     }
     dip_thread_watch_close(&own);
     dip_thread_watch_close(&watch);
