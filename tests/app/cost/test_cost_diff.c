@@ -78,6 +78,58 @@ static void measure(const DipCostDiffArguments *arguments, char recorded[4096], 
     assert_true(unlink(file) == 0 && unlink(program) == 0 && rmdir(folder) == 0);
 }
 
+// Every option that says what the programs draw reaches them: all options of the tables of which
+// the command line consists.
+static void every_option_of_the_scene_reaches_the_program(void **state) {
+    (void)state;
+    static const DipOptionTable *const tables[] = {
+        &dip_scene_option_table, &dip_path_option_table, &dip_category_option_table,
+        &dip_size_option_table, &dip_threads_option_table};
+    DipCostDiffArguments arguments = {.set_count = 1, .measure.starts = 2};
+    DipError err = {0};
+    char recorded[4096], expected[512], name[64];
+    arguments.session = (DipSessionOptions){.config = "c.ini",
+                                            .models = {"a.glb", "b.glb"},
+                                            .model_count = 2,
+                                            .scene = "s",
+                                            .look = 1,
+                                            .up = (DipUpAxis)1,
+                                            .has_shading = true,
+                                            .import_seconds = 5,
+                                            .force_all_effects = true,
+                                            .no_ground = true,
+                                            .animation = "walk",
+                                            .has_animation_time = true,
+                                            .animation_time_s = 1.5,
+                                            .path = "p.pth",
+                                            .category = "AF",
+                                            .has_size = true,
+                                            .size = {8, 6},
+                                            .has_threads = true,
+                                            .threads = 2,
+                                            .has_isa = true};
+    assert_true(dip_quality_parse("aa=4", &arguments.sets[0].quality, NULL));
+    make();
+    measure(&arguments, recorded, &err);
+    snprintf(expected, sizeof expected,
+             " --config c.ini --model a.glb --model b.glb --scene s --look 2 --up %s --shading %s "
+             "--import-seconds 5 --force-all-effects --no-ground --animation walk "
+             "--animation-time 1.5 --path p.pth --category AF --size 8x6 --threads 2 --isa %s ",
+             dip_up_axis_names[1], dip_model_shading_names[0], dip_isa_name((DipIsa)0));
+    if (!strstr(recorded, expected)) {
+        fail_msg("the program got%s, expected%s", recorded, expected);
+    }
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
+        for (size_t i = 0; i < tables[t]->count; i++) {
+            snprintf(name, sizeof name, " %s ", tables[t]->rows[i].name);
+            if (!strstr(recorded, name)) {
+                fail_msg("the program did not get%s", name);
+            }
+        }
+    }
+    done();
+}
+
 // The report knows only the name of a path that --path gave. The program gets this name, with a
 // model, too. If it does not start, the error says what the user may have to add.
 static void a_path_of_the_report_is_asked_for(void **state) {
@@ -426,6 +478,7 @@ static void doubtful_causes_are_not_sure(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_option_of_the_scene_reaches_the_program),
         cmocka_unit_test(a_path_of_the_report_is_asked_for),
         cmocka_unit_test(equal_reports_do_not_differ),
         cmocka_unit_test(one_error_is_named),
