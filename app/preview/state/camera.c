@@ -7,8 +7,8 @@ static const double turn_deg_per_s = 50.0;
 static const double degrees_per_rad = 57.295779513082321;
 static const double steepest_deg = 89.0;
 static const double least_distance_m = 1e-4;
-// Cosine of the greatest angle between the horizon and the right axis of a camera that is not
-// rolled on its side.
+// Cosine of the greatest angle between the horizon and the right axis of a camera that does not lie
+// on its side.
 static const double level_axis = 0.70710678118654752;
 
 // Writes the normalised product of two quaternions (x, y, z, w). The product turns by b first, then
@@ -73,11 +73,10 @@ bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_pe
 
 // --- mouse ---------------------------------------------------------------------------------------
 
-// Limits a turn up or down about the camera's right axis, so that the camera does not tip over. The
-// axis keeps its direction in the turn. A camera whose axis is level is upright between -90 and 90
-// degrees; a camera that is at or beyond the limit can only turn back. A camera is rolled on its
-// side if its axis is steeper than it is level. It cannot tip over, since it never looks more than
-// 45 degrees up or down, and turns freely.
+// Limits a turn up or down about the camera's right axis, so that the camera does not tip over. A
+// camera that is at or beyond the limit can only turn back. If the axis is more than 45 degrees
+// above or below the horizon, the camera lies on its side: its line of sight stays within 45
+// degrees of the horizon, so nothing can tip over, and it turns freely.
 static double limit_up_deg(const DipPose *pose, double up_deg) {
     static const double ahead[3] = {0.0, 0.0, -1.0};
     static const double up[3] = {0.0, 1.0, 0.0};
@@ -87,8 +86,8 @@ static double limit_up_deg(const DipPose *pose, double up_deg) {
     if (hypot(ahead_world[1], up_world[1]) < level_axis) {
         return up_deg;
     }
-    // The angle by which the camera has turned about its axis from looking level and upright. If
-    // the axis is level, this is the angle of the line of sight above the horizon.
+    // The angle by which the camera has turned about its axis since it looked level and was
+    // upright. If the axis is level, this is the angle of the line of sight above the horizon.
     const double from_deg = degrees_per_rad * atan2(ahead_world[1], up_world[1]);
     const double to_deg = from_deg + up_deg;
     if (fabs(to_deg) <= steepest_deg || fabs(to_deg) < fabs(from_deg)) {
