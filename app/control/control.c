@@ -18,8 +18,7 @@ enum {
 };
 
 // A client. Both buffers have fixed sizes: a client that does not read gets no further events, and
-// its requests wait, until it reads again. Memory never grows, and nothing waits for the client,
-// except as control.h says.
+// its requests wait, until it reads again. Memory never grows, and nothing waits for the client.
 typedef struct Client {
     DipWire wire;
     bool ended; // True if the client has closed its side or reading failed; no further input comes.

@@ -4,8 +4,7 @@
 //
 // The channel reads and checks requests. It carries out `subscribe` and `unsubscribe` itself, and
 // hands all others to a function of its owner, which carries them out. All functions must be called
-// on one thread. None of them waits for a client, except that writing may wait if standard output
-// is a pipe or device that cannot be opened again.
+// on one thread. None of them waits for a client.
 #ifndef DIP_APP_CONTROL_CONTROL_H
 #define DIP_APP_CONTROL_CONTROL_H
 

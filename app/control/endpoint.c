@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -41,6 +42,7 @@ ptrdiff_t dip_wire_write(const DipWire *wire, const void *bytes, size_t size) {
     if (!wire->sends && !(ready(wire->out, POLLOUT) & (POLLOUT | POLLERR))) {
         return 0;
     }
+    size = wire->most_bytes > 0 && size > wire->most_bytes ? wire->most_bytes : size;
     const ssize_t count = wire->sends ? send(wire->out, bytes, size, MSG_DONTWAIT | MSG_NOSIGNAL)
                                       : write(wire->out, bytes, size);
     if (count >= 0) {
@@ -70,21 +72,27 @@ void dip_wire_close(DipWire *wire) {
 // open file share the flag O_NONBLOCK: if Diptych set it on the descriptor that it was given,
 // writes of the parent process would no longer wait either. Sockets cannot be opened again, and
 // ordinary files need not be, so these are only duplicated. A pipe or device that cannot be opened
-// again is duplicated, too; writing to it may then wait.
-static int open_output(void) {
+// again is duplicated, too. If poll() finds it ready, it takes PIPE_BUF bytes or one byte, and each
+// write is limited to this.
+static void open_output(DipWire *wire) {
     struct stat status;
-    int output = -1;
-    if (fstat(STDOUT_FILENO, &status) == 0 &&
-        (S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode))) {
-        output = open("/proc/self/fd/1", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    const bool known = fstat(STDOUT_FILENO, &status) == 0;
+    const bool is_pipe = known && S_ISFIFO(status.st_mode);
+    const bool is_device = known && S_ISCHR(status.st_mode);
+    wire->out = is_pipe || is_device
+                    ? open("/proc/self/fd/1", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)
+                    : -1;
+    if (wire->out < 0) {
+        wire->out = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+        wire->most_bytes = is_pipe ? PIPE_BUF : is_device ? 1 : 0;
     }
-    return output >= 0 ? output : fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
 }
 
 bool dip_endpoint_open_standard(DipEndpoint *endpoint, DipWire *wire, DipError *err) {
     struct stat status, input;
     *endpoint = (DipEndpoint){.listener = -1, .stdout_copy = -1};
-    *wire = (DipWire){.in = STDIN_FILENO, .out = open_output()};
+    *wire = (DipWire){.in = STDIN_FILENO};
+    open_output(wire);
     if (wire->out >= 0) {
         endpoint->stdout_copy = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
     }

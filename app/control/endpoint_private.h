@@ -1,7 +1,6 @@
 // Connects the control channel with its clients: the program at the other end of standard input and
 // output, or the programs that connect to a Unix domain socket. No function here waits for a
-// client, except that writing may wait if standard output is a pipe or device that cannot be opened
-// again (open_output in endpoint.c).
+// client.
 #ifndef DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 #define DIP_APP_CONTROL_ENDPOINT_PRIVATE_H
 
@@ -15,8 +14,10 @@
 typedef struct DipWire {
     int in;
     int out;
-    bool socket; // True if both descriptors are the same socket.
-    bool sends;  // True if `out` is a socket.
+    bool socket;       // True if both descriptors are the same socket.
+    bool sends;        // True if `out` is a socket.
+    size_t most_bytes; // Greatest number of bytes in one write, so that it does not wait; 0 if
+                       // there is no limit.
 } DipWire;
 
 // Reads at most `size` bytes. Returns their number, 0 if there are none now, or -1 at the end of

@@ -16,7 +16,7 @@ typedef struct Request {
 static bool read_request(const DipCostContext *cost, const char *text, Request *request,
                          DipError *err) {
     const DipCostReport *report = cost->report;
-    char settings[256];
+    char settings[DIP_SETTINGS_BYTES];
     return (sscanf(text, "draw %d %d %255s", &request->path, &request->frame, settings) == 3 &&
             request->path >= 0 && request->path < report->path_count && request->frame >= 0 &&
             request->frame < dip_cost_frame_count(report) &&

@@ -58,7 +58,7 @@ static void put_numbers(FILE *out, const char *before, const double *values, int
 }
 
 static void put_pane(FILE *out, const DipDrawnFrame *drawn, int pane) {
-    char settings[256];
+    char settings[DIP_SETTINGS_BYTES];
     const DipFrame *frame = &drawn->frame.panes[pane];
     const bool copied = pane == DIP_PANE_REQUESTED && drawn->frame.copied;
     const char *between = "";

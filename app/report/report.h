@@ -51,7 +51,7 @@ enum {
     // If more combinations than this are predicted, the work of some is not counted, but composed
     // from the work of others (combinations.h).
     DIP_COST_MOST_COUNTED = 256,
-    DIP_COST_TEXT = 160,
+    DIP_COST_TEXT = DIP_SETTINGS_BYTES, // A text may be that of settings.
     DIP_COST_REASON = 512
 };
 
@@ -182,8 +182,9 @@ typedef struct DipCostReport {
     char processor[DIP_COST_TEXT];
     char isa[16];
     char version[32];
-    char build[33]; // Hash of the program's file.
-    char date[24];  // When the measurement ended: ISO 8601, UTC; "" if unknown.
+    char build[33];      // Hash of the program's file.
+    bool several_builds; // Parts of a merged report come from programs with other hashes.
+    char date[24];       // When the measurement ended: ISO 8601, UTC; "" if unknown.
     int threads;
     int width;  // Pixels.
     int height; // Pixels.

@@ -81,7 +81,7 @@ void dip_picture_texts_add_pane(DipPictureTexts *texts, int pane, const DipQuali
     static const char *const keywords[DIP_PANE_COUNT][3] = {
         {"Current settings", "Current size", "Current hash"},
         {"Requested settings", "Requested size", "Requested hash"}};
-    char settings[256];
+    char settings[DIP_SETTINGS_BYTES];
     char hash[33];
     dip_quality_format(quality, settings, sizeof settings);
     dip_frame_hash(frame, hash);

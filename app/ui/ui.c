@@ -45,6 +45,7 @@ void dip_ui_begin(DipUi *ui, const DipUiPass *pass) {
     ui->tip[0] = '\0';
     ui->tip_off = (DipRect){0};
     ui->tip_asked = false;
+    ui->focus_shows &= !(pass->event && pass->event->kind == DIP_EVENT_MOUSE_DOWN);
     if (pass->event && is_mouse(pass->event)) {
         ui->pointer_x = pass->event->x;
         ui->pointer_y = pass->event->y;

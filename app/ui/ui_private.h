@@ -33,8 +33,8 @@ struct DipUi {
     double wheel_rest; // The part of a step that the wheel has turned after its last whole step.
     DipUiId focus;
     bool focus_shows; // True if the focus is drawn and gets keys: after a key has moved it, or
-                      // after a click on a control that takes digits. A click on any other control
-                      // that is not disabled hides the focus.
+                      // after a click on a control that takes digits. Any other click hides the
+                      // focus.
     DipUiId typing;   // The number field into which the user types, or 0.
     char typed[8]; // What the user has typed into this field and not yet ended with Enter or Space.
     bool taken; // True if a control took the event of this pass, or if the event moved the focus or

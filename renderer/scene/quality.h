@@ -86,7 +86,10 @@ typedef enum DipSetting {
         DIP_SETTING_COUNT
 } DipSetting;
 
-enum { DIP_MAX_STEPS = 8 };
+enum {
+    DIP_MAX_STEPS = 8,
+    DIP_SETTINGS_BYTES = 256 // Room for the text of any settings; test_quality.c checks it.
+};
 
 // The steps of taa, aaa, opt, miplod, scale, upscale and post, by name.
 enum { DIP_TAA_OFF, DIP_TAA_ALTERNATE, DIP_TAA_HISTORY };

@@ -340,6 +340,15 @@ expect 0 '' "$diptych" cost merge --out merged-full $square --pictures full part
 check "a merged page has whole frames" grep -q 'data-part="frame"[^>]*data:image/jpeg' merged-full/cost.html
 expect 0 '' "$diptych" cost merge --out merged-none --pictures none part0
 check "a merged page has no pictures if none are asked for" test "$(grep -c '<img' merged-none/cost.html)" = 0
+check "parts of one build are joined without a warning" sh -c '! grep -q "different builds" out.txt'
+mkdir other
+sed 's/"build": *"[^"]*"/"build":"other"/' part1/cost.json >other/cost.json
+expect 0 '' "$diptych" cost merge --out merged-builds --pictures none part0 other
+builds='measured by different builds of Diptych'
+check "the merged report says that its parts are of different builds" grep -q "$builds" out.txt
+check "so does its page" grep -q "$builds" merged-builds/cost.html
+expect 0 '' "$diptych" cost merge --out merged-again --pictures none merged-builds
+check "a merged report keeps saying so" grep -q "$builds" out.txt
 refuse 'the parts show "square.gltf", and the pictures of the page would be drawn from' \
     cost merge --out x part0 part1
 check "the report has errors" test "$(wc -l <once.txt)" -gt 50

@@ -30,7 +30,8 @@ enum {
 
 // A combination of settings to compare.
 typedef struct DipCostDiffSet {
-    char text[80]; // The settings as text: as the user typed them, or one of the default sets.
+    // The settings as text: as the user typed them, or one of the default sets.
+    char text[DIP_SETTINGS_BYTES];
     DipQuality quality;
 } DipCostDiffSet;
 
@@ -111,8 +112,9 @@ typedef enum DipCostDiffKind {
 
 typedef struct DipCostDiff {
     DipCostDiffKind kind;
-    const char *names[2];      // As on the command line. Borrowed.
-    char machines[2][256];     // "Xeon, 2 threads, avx512"; for two programs "Xeon, 2 threads".
+    const char *names[2]; // As on the command line. Borrowed.
+    // "Xeon, 2 threads, avx512"; for two programs "Xeon, 2 threads".
+    char machines[2][DIP_COST_TEXT + 64];
     char builds[2][33];        // Hash of the program's file; "" if not known.
     char scene[DIP_COST_TEXT]; // "court.gltf, 640x480 pixels"; "" for two programs, and if reports
                                // differ in scene or size.
@@ -182,8 +184,9 @@ typedef struct DipCostDiffChange {
 // A group of quantities that differ in the same rows. All errors that differ are in one group, even
 // if not all of them differ in the same rows.
 typedef struct DipCostDiffGroup {
-    char which[256]; // Says in which rows the quantities differ: "all 12 rows with af=16".
-    int row_count;   // Number of rows in which any of the quantities differs.
+    char which[DIP_COST_TEXT +
+               64]; // Says in which rows the quantities differ: "all 12 rows with af=16".
+    int row_count;  // Number of rows in which any of the quantities differs.
     DipCostDiffChange changes[DIP_COST_DIFF_QUANTITY_COUNT];
     int change_count;
 } DipCostDiffGroup;

@@ -391,10 +391,21 @@ static void add_quality(Duel *duel, const DipQuality *quality) {
     add_set(duel, text);
 }
 
+// Returns whether a path of a report has the name of a category, which is not the name of a camera
+// or of a file that --path gave.
+static bool is_category(const char *path) {
+    for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
+        if (strcmp(dip_session_category(c), path) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Returns the arguments, completed from the report: the options of size, threads, instruction set
-// and camera path that were not given get the values with which the report was measured. The path
-// gets its value only if no model was given, either. If this machine lacks the report's instruction
-// set, the best one that the machine has takes its place.
+// and camera path that were not given get the values with which the report was measured. With a
+// model, a category needs no option: the camera orbits the model. If this machine lacks the
+// report's instruction set, the best one that the machine has takes its place.
 static DipCostDiffArguments options_of_report(const DipCostDiffArguments *arguments,
                                               const DipCostReport *report) {
     DipCostDiffArguments all = *arguments;
@@ -413,17 +424,27 @@ static DipCostDiffArguments options_of_report(const DipCostDiffArguments *argume
         session->has_isa = true;
         session->isa = known ? isa : dip_isa_best();
     }
-    if (!session->path && !session->model_count && !session->category) {
-        session->path = report->paths[0]; // This is taken as the name of a camera of the scene,
-                                          // unless it names a category.
-        for (int c = 0; c < DIP_CATEGORY_COUNT; c++) {
-            if (strcmp(dip_session_category(c), report->paths[0]) == 0) {
-                session->category = report->paths[0];
-                session->path = NULL;
-            }
-        }
+    if (!session->path && !session->category) {
+        const bool named = is_category(report->paths[0]);
+        session->category = named && !session->model_count ? report->paths[0] : NULL;
+        session->path = named ? NULL : report->paths[0];
     }
     return all;
+}
+
+// A report has only the name of the file that --path gave, without folder and ending. If the
+// program did not start with the report's path, adds to the error what the user must give.
+static void ask_for_path(const DipCostDiffArguments *arguments, const DipCostReport *report,
+                         DipError *err) {
+    const DipSessionOptions *session = &arguments->session;
+    if (err && err->origin == DIP_ORIGIN_INPUT && !session->path && !session->category &&
+        !is_category(report->paths[0])) {
+        const size_t length = strlen(err->message);
+        snprintf(err->message + length, sizeof err->message - length,
+                 "; if it did not find the path \"%s\" of the report, give the path's file or "
+                 "camera with --path",
+                 report->paths[0]);
+    }
 }
 
 // Fills in the new report. It has the first path of the old report, the baseline and `count` rows.
@@ -484,6 +505,7 @@ bool dip_cost_diff_measure_report(const DipCostDiffArguments *arguments, const c
                       make_report(report, &duel, rows, count, &all.session, measured, err);
     free_duel(&duel);
     if (!done) {
+        ask_for_path(arguments, report, err);
         dip_cost_report_free(measured);
     }
     return done;

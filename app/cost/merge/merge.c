@@ -65,6 +65,11 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
+// Returns whether two reports surely come from different builds. The build may be unknown ("").
+static bool are_other_builds(const DipCostReport *a, const DipCostReport *b) {
+    return a->build[0] && b->build[0] && strcmp(a->build, b->build) != 0;
+}
+
 // Reads all parts and joins them into one report. The report's times, budgets and machine come from
 // the first part that has times, or from the first part if none has times. Times of several
 // machines cannot be mixed.
@@ -87,6 +92,8 @@ static bool read_parts(const Arguments *arguments, DipCostReport *report, DipCos
                                  arguments->parts[0]);
         }
         dip_cost_machines_add(machines, &part);
+        report->several_builds |= part.several_builds || are_other_builds(report, &part);
+        part.several_builds = report->several_builds;
         if (report->rounds == 0 && part.rounds > 0) {
             const DipCostReport swap = *report;
             *report = part;

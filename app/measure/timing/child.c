@@ -222,9 +222,10 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
         return false;
     }
     const DipThreadUse after = dip_thread_watch_read(child->watch);
-    // Sets timed->wait, cpu_ms and switches from the watch. A newer build measures these three
-    // itself, and store_word then replaces them by the build's answer. For older builds, the
-    // watch's values are used, although they include the wait until the child reads the request.
+    // Sets timed->wait and cpu_ms from the watch, which knows no switches of the child. A newer
+    // build measures all three itself, and store_word then replaces them by the build's answer. For
+    // older builds, the watch's values are used, although they include the wait until the child
+    // reads the request.
     set_use(timed, &before, &after);
     char *rest = NULL;
     for (char *word = strtok_r(line, " \n", &rest); word; word = strtok_r(NULL, " \n", &rest)) {

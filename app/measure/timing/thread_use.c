@@ -15,6 +15,7 @@
 struct DipThreadWatch {
     int *files; // The file schedstat of each watched thread, open for reading.
     int count;
+    bool is_other; // The threads are those of another process.
 };
 
 static bool read_thread(int file, DipThreadUse *sum) {
@@ -78,7 +79,11 @@ DipThreadWatch *dip_thread_watch_open(void) {
 DipThreadWatch *dip_thread_watch_open_process(long pid) {
     char folder[48];
     snprintf(folder, sizeof folder, "/proc/%ld/task", pid);
-    return open_watch(folder);
+    DipThreadWatch *watch = open_watch(folder);
+    if (watch) {
+        watch->is_other = true;
+    }
+    return watch;
 }
 
 int dip_thread_watch_count(const DipThreadWatch *watch) {
@@ -108,6 +113,7 @@ DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch) {
         sum.cpu_ns = (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
     }
     struct rusage usage;
-    sum.switches = getrusage(RUSAGE_SELF, &usage) == 0 ? usage.ru_nivcsw : 0;
+    const bool is_other = watch && watch->is_other; // getrusage does not tell of other processes.
+    sum.switches = !is_other && getrusage(RUSAGE_SELF, &usage) == 0 ? usage.ru_nivcsw : 0;
     return sum;
 }

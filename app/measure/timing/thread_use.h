@@ -21,7 +21,8 @@ extern "C" {
 typedef struct DipThreadUse {
     int64_t cpu_ns;   // Time on a core.
     int64_t wait_ns;  // Time on the run queue, ready to run; 0 if has_wait is false.
-    int64_t switches; // Involuntary context switches of the calling process.
+    int64_t switches; // Involuntary context switches of the whole process; 0 if it is not the
+                      // calling one.
     bool has_wait;
 } DipThreadUse;
 
@@ -42,9 +43,8 @@ DIP_API DipThreadWatch *dip_thread_watch_open_process(long pid);
 // Returns the number of threads that are watched; 0 if the watch is NULL.
 DIP_API int dip_thread_watch_count(const DipThreadWatch *watch);
 
-// Reads the sums. Takes a few microseconds per thread. `switches` is always that of the calling
-// process. If the watch is NULL, has_wait is false, and cpu_ns is the processor time of the calling
-// process.
+// Reads the sums. Takes a few microseconds per thread. If the watch is NULL, has_wait is false, and
+// cpu_ns is the processor time of the calling process.
 DIP_API DipThreadUse dip_thread_watch_read(const DipThreadWatch *watch);
 
 #ifdef __cplusplus

@@ -5,7 +5,7 @@
 #include "app/control/control.h"
 #include "app/files/pictures.h"
 #include "app/preview/control/reply_private.h"
-#include "app/preview/tools/layout.h"
+#include "app/preview/tools/compare.h"
 #include "renderer/base/hash.h"
 
 #include <cjson/cJSON.h>
@@ -170,14 +170,6 @@ static DipControlAnswer play_animation(const DipPreviewMoment *moment, const cha
     return DIP_CONTROL_REFUSED;
 }
 
-// Returns where the panes and the dock lie in a window of the given size.
-static DipLayout layout_of(const DipPreviewMoment *moment, int width, int height) {
-    const DipToolState *tools = &moment->state->tools;
-    const double scale =
-        dip_layout_scale(moment->display->scale(moment->display->context), tools, height);
-    return dip_layout_make(width, height, scale, tools->open, tools->bare);
-}
-
 static bool resize(const DipPreviewMoment *moment, const DipControlRequest *request, cJSON *reply,
                    DipError *err) {
     const DipDisplay *display = moment->display;
@@ -196,7 +188,10 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
     }
     display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
-    const DipRect pane = layout_of(moment, width, height).panes[DIP_PANE_CURRENT];
+    // The next turn lays the window out anew, so moment->layout has the old size.
+    const double scale = dip_layout_scale(display_scale, tools, height);
+    const DipRect pane =
+        dip_layout_make(width, height, scale, tools->open, tools->bare).panes[DIP_PANE_CURRENT];
     cJSON_AddNumberToObject(reply, "width", pane.width);
     cJSON_AddNumberToObject(reply, "height", pane.height);
     return true;
@@ -409,7 +404,7 @@ static void send_events(DipRemote *remote) {
 }
 
 // If a program has subscribed to picks, sends it the colours of the pixel on which the user has
-// pressed a mouse button.
+// pressed a mouse button, and the pane whose picture the window shows there.
 static void press(void *context, const DipPreviewMoment *moment, const DipEvent *event) {
     static const char *const buttons[] = {
         [DIP_MOUSE_LEFT] = "left",
@@ -418,26 +413,23 @@ static void press(void *context, const DipPreviewMoment *moment, const DipEvent 
         [DIP_MOUSE_OTHER] = "other",
     };
     DipRemote *remote = context;
-    const DipFrame *frame = &moment->panes[0];
-    if (!wants(remote, DIP_CONTROL_TOPIC_PICKS) || !frame->rgba8) {
+    if (!wants(remote, DIP_CONTROL_TOPIC_PICKS) || !moment->panes[0].rgba8) {
         return;
     }
-    const DipLayout layout = layout_of(moment, moment->picture.width, moment->picture.height);
+    DipWindow window = {
+        .state = moment->state, .layout = &moment->layout, .now_ns = moment->now_ns};
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipRect *pane = &layout.panes[p];
-        if (!dip_rect_holds(*pane, event->x, event->y)) {
-            continue;
-        }
+        const DipFrame *frame = &moment->panes[p];
+        window.frames[p] =
+            (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+    }
+    int pane, x, y;
+    if (dip_compare_pixel_at(&window, event->x, event->y, &pane, &x, &y)) {
         cJSON *fields = cJSON_CreateObject();
-        cJSON_AddStringToObject(fields, "pane", dip_pane_names[p]);
+        cJSON_AddStringToObject(fields, "pane", dip_pane_names[pane]);
         cJSON_AddStringToObject(fields, "button", buttons[event->button]);
-        // If memory ran out for frames of the panes' size, or this size is too large for frames,
-        // the window shows frames of another size, scaled to the panes.
-        dip_reply_pick(fields, moment,
-                       (int)((int64_t)(event->x - pane->x) * frame->width / pane->width),
-                       (int)((int64_t)(event->y - pane->y) * frame->height / pane->height));
+        dip_reply_pick(fields, moment, x, y);
         dip_control_send(remote->control, DIP_CONTROL_TOPIC_PICKS, fields);
-        return;
     }
 }
 

@@ -66,7 +66,7 @@ static void add_state(cJSON *object, const DipPreviewMoment *moment) {
 
 static void add_settings(cJSON *object, const DipPreviewMoment *moment) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        char text[256];
+        char text[DIP_SETTINGS_BYTES];
         dip_quality_format(&moment->state->quality[p], text, sizeof text);
         cJSON_AddStringToObject(object, dip_pane_names[p], text);
     }

@@ -33,7 +33,6 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->drawn_quality[p] = dip_painter_quality(def->session->renderers[p]);
     }
-    memcpy(preview->first_quality, preview->drawn_quality, sizeof preview->first_quality);
     preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
     preview->state.costs = def->costs;
     preview->state.choice = &preview->choice;
@@ -130,6 +129,7 @@ static DipPreviewMoment moment_of(DipPreview *preview, int64_t now_ns) {
         .prices = preview->prices,
         .panes = preview->frame.panes,
         .picture = dip_view_picture(preview->view),
+        .layout = dip_preview_layout(preview),
         .drawn = preview->picture_number != 0 && !preview->redraw && !preview->resized &&
                  preview->state.scene_changes == preview->drawn_changes,
         .now_ns = now_ns,
@@ -290,7 +290,7 @@ static void paste_settings(DipPreview *preview, int64_t now_ns) {
 // Copies the requested settings as text to the clipboard, if the user asked for it.
 static void copy_settings(DipPreview *preview, int64_t now_ns) {
     const DipDisplay *display = &preview->def.display;
-    char text[256];
+    char text[DIP_SETTINGS_BYTES];
     if (!preview->state.copy_settings) {
         return;
     }

@@ -25,6 +25,7 @@ typedef struct DipPreviewMoment {
     const DipPrices *prices;
     const DipFrame *panes; // Both panes' newest frames; rgba8 is NULL before the first ones.
     DipPixels picture;     // The display's picture that was drawn last.
+    DipLayout layout;      // Where the panes and the dock lie now.
     bool drawn;            // The frames and the picture show everything that the state asks for.
     int64_t now_ns;
 } DipPreviewMoment;

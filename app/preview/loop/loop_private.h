@@ -79,7 +79,6 @@ struct DipPreview {
     uint64_t frame_index;
     unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
     DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
-    DipQuality first_quality[DIP_PANE_COUNT]; // Settings with which the session began.
     int drawn_look;
     const DipCamPath *drawn_path; // The path that played in the last frame.
     int settling;                 // Frames to draw at rest until the panes' histories are complete.

@@ -14,6 +14,12 @@ void dip_loop_enter_scene(DipPreview *preview) {
     }
 }
 
+// Gives the free camera the speed and the kind of dragging that suit the scene.
+static void begin_flight(DipPreview *preview) {
+    preview->def.flying_speed_m_per_s = dip_flying_speed(preview->def.session);
+    dip_pilot_enter(&preview->state.flight, preview->def.session);
+}
+
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;
@@ -39,6 +45,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     state->look = preview->drawn_look = 0;
     state->play_ns = 0;
     state->manual = false;
+    begin_flight(preview);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         dip_figures_forget(&preview->figures, p);
     }
@@ -46,14 +53,13 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-static void follow_settings_of(const DipSession *session, DipPreviewState *state,
-                               DipQuality first_quality[DIP_PANE_COUNT]) {
+static void follow_settings_of(const DipSession *session, DipPreviewState *state) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality begun = dip_painter_quality(session->renderers[p]);
-        if (memcmp(&begun, &first_quality[p], sizeof begun) != 0) {
+        if (memcmp(&begun, &state->begun_quality[p], sizeof begun) != 0) {
             state->quality[p] = begun;
         }
-        first_quality[p] = begun;
+        state->begun_quality[p] = begun;
     }
 }
 
@@ -94,7 +100,7 @@ static void hand_over(DipPreview *preview, bool dropped) {
         const double fps = session->config.target_fps;
         dip_preview_set_budget(state, fps > 0.0 ? 1000.0 / fps : 0.0);
     }
-    follow_settings_of(session, state, preview->first_quality);
+    follow_settings_of(session, state);
     follow_track(session, state, &before, dropped);
     state->shows_gallery = session->shows_gallery;
     state->look = session->shows_gallery ? session->options->look : 0;
@@ -119,8 +125,7 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     }
     dip_loop_enter_scene(preview);
     preview->drawn_look = preview->state.look;
-    preview->def.flying_speed_m_per_s = dip_flying_speed(session);
-    dip_pilot_enter(&preview->state.flight, session);
+    begin_flight(preview);
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
     ++preview->picture_number;
 }

@@ -219,9 +219,7 @@ static void use_loupe(const Act *act) {
 }
 
 static void zoom(const Act *act) {
-    int *zoom = &act->state->tools.zoom;
-    const int wanted = act->reverse ? *zoom / 2 : *zoom * 2;
-    *zoom = wanted >= DIP_LOUPE_MIN_ZOOM && wanted <= DIP_LOUPE_MAX_ZOOM ? wanted : *zoom;
+    dip_tool_state_zoom(&act->state->tools, act->reverse ? -1 : 1);
 }
 
 // Returns a tool's next value (reversed: the value before) in a ring of `count` values, and opens
@@ -248,22 +246,17 @@ static void next_map(const Act *act) {
     }
 }
 
-// Doubles or halves the brightness if a map is chosen, or the gain if the difference is chosen.
-// Otherwise moves the wipe's divider by 5 % of the picture's width.
+// Doubles or halves the brightness if a map is chosen. Otherwise changes the gain or the divider.
 static void adjust(const Act *act) {
-    enum { MAX_GAIN = 64, MOST_BRIGHTNESS = 1 << (DIP_BRIGHTNESS_COUNT - 1) };
+    enum { MOST_BRIGHTNESS = 1 << (DIP_BRIGHTNESS_COUNT - 1) };
     DipToolState *tools = &act->state->tools;
     if (tools->map != DIP_MAP_NONE) {
         const double brightness = tools->brightness * (act->reverse ? 0.5 : 2.0);
         tools->brightness = brightness < 1.0               ? 1.0
                             : brightness > MOST_BRIGHTNESS ? MOST_BRIGHTNESS
                                                            : brightness;
-    } else if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
-        const int gain = act->reverse ? tools->gain / 2 : tools->gain * 2;
-        tools->gain = gain < 1 ? 1 : gain > MAX_GAIN ? MAX_GAIN : gain;
     } else {
-        const double divider = tools->divider + (act->reverse ? -0.05 : 0.05);
-        tools->divider = divider < 0.0 ? 0.0 : divider > 1.0 ? 1.0 : divider;
+        dip_tool_state_adjust(tools, act->reverse ? -1 : 1);
     }
 }
 

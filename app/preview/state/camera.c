@@ -7,6 +7,9 @@ static const double turn_deg_per_s = 50.0;
 static const double degrees_per_rad = 57.295779513082321;
 static const double steepest_deg = 89.0;
 static const double least_distance_m = 1e-4;
+// Cosine of the greatest angle between the horizon and the right axis of a camera that does not lie
+// on its side.
+static const double level_axis = 0.70710678118654752;
 
 // Writes the normalised product of two quaternions (x, y, z, w). The product turns by b first, then
 // by a.
@@ -70,21 +73,22 @@ bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_pe
 
 // --- mouse ---------------------------------------------------------------------------------------
 
-// Returns the angle of the line of sight above the horizon, if the camera is not rolled about its
-// line of sight. The angle lies beyond 90 or -90 degrees if the camera is upside down.
-static double elevation_deg(const DipPose *pose) {
+// Limits a turn up or down about the camera's right axis, so that the camera does not tip over. A
+// camera that is at or beyond the limit can only turn back. If the axis is more than 45 degrees
+// above or below the horizon, the camera lies on its side: its line of sight stays within 45
+// degrees of the horizon, so nothing can tip over, and it turns freely.
+static double limit_up_deg(const DipPose *pose, double up_deg) {
     static const double ahead[3] = {0.0, 0.0, -1.0};
     static const double up[3] = {0.0, 1.0, 0.0};
     double ahead_world[3], up_world[3];
     rotate(pose->orientation, ahead, ahead_world);
     rotate(pose->orientation, up, up_world);
-    return degrees_per_rad * atan2(ahead_world[1], up_world[1]);
-}
-
-// Limits a turn up or down, so that the camera does not tip over. A camera that is at or beyond the
-// limit can only turn back.
-static double limit_up_deg(const DipPose *pose, double up_deg) {
-    const double from_deg = elevation_deg(pose);
+    if (hypot(ahead_world[1], up_world[1]) < level_axis) {
+        return up_deg;
+    }
+    // The angle by which the camera has turned about its axis since it looked level and was
+    // upright. If the axis is level, this is the angle of the line of sight above the horizon.
+    const double from_deg = degrees_per_rad * atan2(ahead_world[1], up_world[1]);
     const double to_deg = from_deg + up_deg;
     if (fabs(to_deg) <= steepest_deg || fabs(to_deg) < fabs(from_deg)) {
         return up_deg;

@@ -22,13 +22,15 @@ bool dip_camera_move(DipPose *pose, const DipCameraKeys *keys, double speed_m_pe
                      double seconds);
 
 // Turns the camera by angles in degrees: to the right about the world's vertical axis, and upwards
-// about the camera's right axis. Stops 1 degree before the camera looks straight up or down.
+// about the camera's right axis. Stops 1 degree before the camera looks straight up or down or, if
+// it is rolled, 1 degree before it looks as far up or down as this turn can make it. A camera that
+// lies on its side, with its right axis more than 45 degrees above or below the horizon, does not
+// stop.
 void dip_camera_look(DipPose *pose, double right_deg, double up_deg);
 
 // Turns the camera about a point by angles in degrees, so that the point keeps its place in the
 // picture: to the right about the vertical axis through the point, and upwards about the axis
-// through the point that is parallel to the camera's right axis. Stops 1 degree before the camera
-// looks straight up or down.
+// through the point that is parallel to the camera's right axis. Stops as dip_camera_look does.
 void dip_camera_orbit(DipPose *pose, const double centre_world[3], double right_deg, double up_deg);
 
 // Moves the camera to `factor` times its distance from a point. The factor must be above 0. Does

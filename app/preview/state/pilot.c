@@ -21,8 +21,12 @@ double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
 }
 
+bool dip_flight_should_orbit(const DipSession *session) {
+    return session->options && session->options->model_count > 0 && !session->shows_gallery;
+}
+
 double dip_flying_speed(const DipSession *session) {
-    if (session->options->model_count == 0 || !session->scene) {
+    if (!dip_flight_should_orbit(session) || !session->scene) {
         return courtyard_speed_m_per_s;
     }
     float low[3];
@@ -32,10 +36,6 @@ double dip_flying_speed(const DipSession *session) {
         sqrt(pow((double)high[0] - low[0], 2) + pow((double)high[1] - low[1], 2) +
              pow((double)high[2] - low[2], 2));
     return diagonal / seconds_across_model;
-}
-
-bool dip_flight_should_orbit(const DipSession *session) {
-    return session->options && session->options->model_count > 0 && !session->shows_gallery;
 }
 
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]) {

@@ -38,9 +38,9 @@ void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 // flight->speed_steps double the speed.
 double dip_flight_speed(const DipFlight *flight);
 
-// Returns a speed in metres per second that suits the session's scene. If the user gave models, a
-// camera of this speed crosses the diagonal of the scene's bounding box in four seconds, whatever
-// the models' unit of length is. Otherwise the speed is 3.
+// Returns a speed in metres per second that suits the session's scene. If the panes show models
+// that the user gave, a camera of this speed crosses the diagonal of the scene's bounding box in
+// four seconds, whatever the models' unit of length is. Otherwise the speed is 3.
 double dip_flying_speed(const DipSession *session);
 
 // Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
@@ -54,7 +54,7 @@ bool dip_flight_should_orbit(const DipSession *session);
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
 
 // Resets the free camera's speed, and decides by the session's scene whether dragging orbits. Call
-// it for a new session.
+// it for a new session and for another scene.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
 // What the loop gives to dip_pilot_turn.

@@ -13,7 +13,7 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
     state.quality[DIP_PANE_CURRENT] = quality[DIP_PANE_CURRENT];
     state.quality[DIP_PANE_REQUESTED] = quality[DIP_PANE_REQUESTED];
     state.edited[DIP_PANE_REQUESTED] = true;
-    state.ini_quality = quality[DIP_PANE_REQUESTED];
+    memcpy(state.begun_quality, state.quality, sizeof state.begun_quality);
     state.tools = (DipToolState){.open = true,
                                  .ui_scale = 1.0,
                                  .zoom = 16,

@@ -107,9 +107,9 @@ typedef struct DipFlight {
 
 typedef struct DipPreviewState {
     DipQuality quality[DIP_PANE_COUNT];
-    DipQuality ini_quality;      // The requested pane's settings when the preview began.
-    bool edited[DIP_PANE_COUNT]; // The panes whose settings the keys change.
-    DipCamTrack *track;          // Borrowed.
+    DipQuality begun_quality[DIP_PANE_COUNT]; // Settings with which the session began.
+    bool edited[DIP_PANE_COUNT];              // The panes whose settings the keys change.
+    DipCamTrack *track;                       // Borrowed.
     int64_t play_ns; // Time that the camera path and the scene follow, never below 0. A path begins
                      // at track->start_ns.
     int64_t step_ns; // How far DIP_ACTION_STEP moves the time.

@@ -169,7 +169,7 @@ bool dip_preview_preset(const DipPreviewState *state, DipPreset preset, DipQuali
     const DipPreviewChoice *choice = state->choice;
     switch (preset) {
     case DIP_PRESET_INI:
-        *quality = state->ini_quality;
+        *quality = state->begun_quality[DIP_PANE_REQUESTED];
         return true;
     case DIP_PRESET_CURRENT:
         *quality = state->quality[DIP_PANE_CURRENT];

@@ -42,7 +42,7 @@ typedef enum DipMap {
     DIP_MAP_COUNT
 } DipMap;
 
-enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
+enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32, DIP_COMPARE_MAX_GAIN = 64 };
 
 // The choices of the user. Plain data; part of the preview's state.
 enum { DIP_BRIGHTNESS_COUNT = 4 }; // Number of brightnesses of maps (DipToolState.brightness).
@@ -71,5 +71,16 @@ typedef struct DipToolState {
     double brightness; // The value at the end of a map's colour scale is divided by this: 1, 2, ...
                        // 1 << (DIP_BRIGHTNESS_COUNT - 1). A value below 1 counts as 1.
 } DipToolState;
+
+// Doubles the loupe's zoom `steps` times, or halves it for steps below 0, within its range.
+void dip_tool_state_zoom(DipToolState *tools, int steps);
+
+// Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
+void dip_tool_state_divide(DipToolState *tools, double at);
+
+// In a wipe, moves the divider by `steps` times 1/64 of the picture's width. In a difference,
+// doubles the gain `steps` times; steps below 0 halve it. Returns false if the chosen comparison
+// has neither divider nor gain.
+bool dip_tool_state_adjust(DipToolState *tools, int steps);
 
 #endif

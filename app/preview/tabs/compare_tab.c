@@ -50,9 +50,9 @@ static void declare_divider(DipUi *ui, DipToolState *tools, DipRect rect) {
                        "Moves the line between both pictures. [ and ] move it as well.");
     const int radius = dip_ui_px(ui, 7), track = rect.width - 2 * radius;
     if (input.began || (input.held && input.moved)) {
-        dip_compare_divide(tools, (double)(input.x - rect.x - radius) / dip_max(1, track));
+        dip_tool_state_divide(tools, (double)(input.x - rect.x - radius) / dip_max(1, track));
     }
-    dip_compare_adjust(tools, input.steps);
+    dip_tool_state_adjust(tools, input.steps);
     const int x = rect.x + (int)(tools->divider * track + 0.5), y = rect.y + rect.height / 2;
     dip_ui_fill_round(ui, (DipRect){rect.x, y - 2, rect.width, 4}, 2, dip_style_line);
     dip_ui_fill_round(ui, (DipRect){x, y - radius, 2 * radius, 2 * radius}, radius,
@@ -69,7 +69,7 @@ static void declare_wipe(DipFlow *flow) {
         declare_divider(flow->ui, tools, rect);
     }
     if (dip_flow_choice(flow, ID_OPTION, "Middle", false, "Puts the line in the middle.")) {
-        tools->divider = 0.5;
+        dip_tool_state_divide(tools, 0.5);
     }
     dip_flow_text(flow, dip_style_dim,
                   tools->against_truth

@@ -164,8 +164,7 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
                       label.settings);
     if (edited && pane == DIP_PANE_REQUESTED &&
         !dip_compare_is_one_picture(window->state->tools.comparison)) {
-        dip_ui_fill(ui, (DipRect){rect.x - DIP_PANE_GAP_PX, rect.y, DIP_PANE_GAP_PX, rect.height},
-                    dip_style_accent);
+        dip_ui_fill(ui, dip_layout_gap(window->layout), dip_style_accent);
     }
 }
 

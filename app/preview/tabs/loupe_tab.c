@@ -256,29 +256,25 @@ static int brief_height(const Part *part, DipRect rect) {
 // --- crops ---------------------------------------------------------------------------------------
 
 // Declares the crop as a control. A click moves the loupe to the pixel under the pointer, and the
-// wheel zooms. The left and right arrow keys move the loupe by one pixel; while the pointer is over
-// the crop, they zoom.
+// wheel zooms. The crop never gets the focus: arrow keys move the loupe while no control has the
+// focus (dip_loupe_press).
 static void handle_crop(Part *part, const DipLoupeCrop *crop) {
     DipToolState *tools = &part->window->state->tools;
     const DipPixels *frame = &part->window->frames[part->pane];
-    const DipUiInput input =
-        dip_ui_stepper(part->ui, DIP_UI_ID(DIP_UI_LOUPE, ID_CROP + part->pane), crop->frame,
-                       "Click: look at this pixel. Wheel: zoom. Arrow keys: move by one pixel.");
-    if (dip_ui_is_drawing(part->ui)) {
-        if (input.focused) {
-            dip_ui_outline(part->ui, crop->frame, 0, dip_ui_px(part->ui, 2), dip_style_soft);
-        }
-        return;
-    }
+    const DipUiInput input = dip_ui_control(
+        part->ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_LOUPE, ID_CROP + part->pane),
+                                  .rect = crop->frame,
+                                  .tip = "Click: look at this pixel. Wheel: zoom.\n"
+                                         "Arrow keys: move by one pixel; with Shift by eight.",
+                                  .skips_focus = true,
+                                  .takes_wheel = true});
     int x, y;
     if (input.began && dip_loupe_pixel_at(crop->shown, crop->source.width, crop->source.height,
                                           input.x, input.y, &x, &y)) {
         dip_loupe_move(tools, crop->source.x + x - tools->x, crop->source.y + y - tools->y,
                        frame->width, frame->height);
-    } else if (input.steps && input.hovered) {
-        dip_loupe_zoom(tools, input.steps);
     } else if (input.steps) {
-        dip_loupe_move(tools, input.steps, 0, frame->width, frame->height);
+        dip_tool_state_zoom(tools, input.steps);
     }
 }
 

@@ -208,11 +208,8 @@ static void draw_key(const Tab *tab, DipRect area, int down, DipColour colour, c
 static void mip_legend(const Tab *tab, DipRect area) {
     put(tab, TEXT, dip_style_white, area, 0, "Mip level, by its size in texels");
     for (int i = 0; i < DIP_MIP_DEBUG_LEVELS; i++) {
-        char text[32];
-        snprintf(text, sizeof text, "%d%s", 1024 >> i,
-                 i == 0                          ? " and more"
-                 : i == DIP_MIP_DEBUG_LEVELS - 1 ? " and fewer"
-                                                 : "");
+        char text[DIP_MIP_TEXT_BYTES];
+        dip_map_mip_text(i, text);
         const DipRect half = {area.x + i / 4 * area.width / 2, area.y, area.width / 2, 0};
         draw_key(tab, half, ROW * (i % 4 + 1), dip_map_mip_colour(i), text);
     }
@@ -396,17 +393,15 @@ static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
 static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
     const DipMap map = tab->tools->map;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const int mip = dip_maps_mip_size(tab->maps, p, x, y);
+        const int mip = dip_maps_mip_index(tab->maps, p, x, y);
         const DipMapWork *work = dip_maps_work(tab->maps, p);
         const double flip = map == DIP_MAP_FLIP ? value_at(tab, p, x, y) : -1.0;
         char text[40] = "";
-        if (map == DIP_MAP_MIPS && mip) {
-            int index = 0;
-            while (1024 >> index > mip) {
-                index++;
-            }
-            snprintf(text, sizeof text, "about %d texels", mip);
-            put_swatch(tab, p, area, dip_map_mip_colour(index), text);
+        if (map == DIP_MAP_MIPS && mip >= 0) {
+            char size[DIP_MIP_TEXT_BYTES];
+            dip_map_mip_text(mip, size);
+            snprintf(text, sizeof text, "%s texels", size);
+            put_swatch(tab, p, area, dip_map_mip_colour(mip), text);
         } else if (map == DIP_MAP_MIPS) {
             put_swatch(tab, p, area, dip_style_well, "no mip colour");
         } else if (map == DIP_MAP_SAMPLES && work->draws && x < work->width && y < work->height) {

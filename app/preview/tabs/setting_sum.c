@@ -43,7 +43,7 @@ static DipUiLook describe_preset(const DipWindow *window, DipPreset preset, char
     const char *name = dip_preview_preset_name(preset);
     const char *progress = dip_prices_progress(window->prices);
     DipQuality quality;
-    char text[200], price[40] = "";
+    char text[DIP_SETTINGS_BYTES], price[40] = "";
     if (!dip_preview_preset(window->state, preset, &quality)) {
         dip_preview_choice_why(window->state->choice, progress, text, sizeof text);
         snprintf(tip, 320, "%s waits. %s", name, text);
@@ -412,7 +412,7 @@ static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSu
 // doubtful or do not hold for the panes, their source is a warning and comes before the settings,
 // so that a lack of room cuts the settings first.
 static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
-    char source[400], settings[200];
+    char source[400], settings[DIP_SETTINGS_BYTES];
     const bool stale = dip_prices_source(window->prices, window->frames[0].width,
                                          window->frames[0].height, source, sizeof source);
     const bool warns = stale || dip_prices_are_doubtful(window->prices);

@@ -7,7 +7,6 @@
 #include <string.h>
 
 static const int64_t blink_ns = 500000000; // How long the timer of BLINK shows each pane.
-enum { DIVIDER_STEPS = 64 };               // Steps of the divider across the picture.
 
 const char *dip_compare_name(DipComparison comparison) {
     static const char *const names[DIP_COMPARISON_COUNT] = {
@@ -199,30 +198,6 @@ DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int
         }
     }
     return difference;
-}
-
-// --- actions -----------------------------------------------------------------------------------
-
-void dip_compare_divide(DipToolState *tools, double at) {
-    tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
-}
-
-bool dip_compare_adjust(DipToolState *tools, int steps) {
-    if (tools->comparison == DIP_COMPARE_WIPE) {
-        dip_compare_divide(tools, tools->divider + (double)steps / DIVIDER_STEPS);
-        return true;
-    }
-    if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
-        tools->gain = dip_max(tools->gain, 1);
-        for (; steps > 0 && tools->gain < DIP_COMPARE_MAX_GAIN; --steps) {
-            tools->gain *= 2;
-        }
-        for (; steps < 0 && tools->gain > 1; ++steps) {
-            tools->gain /= 2;
-        }
-        return true;
-    }
-    return false;
 }
 
 // --- memory ------------------------------------------------------------------------------------

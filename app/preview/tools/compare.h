@@ -6,8 +6,6 @@
 #include "app/preview/tools/window.h"
 #include "app/ui/canvas.h"
 
-enum { DIP_COMPARE_MAX_GAIN = 64 };
-
 // --- arithmetic --------------------------------------------------------------------------------
 
 // Returns whether a comparison shows one picture in place of both panes.
@@ -67,15 +65,7 @@ typedef struct DipDifference {
 DipDifference dip_compare_difference(const DipPixels *a, const DipPixels *b, int gain,
                                      uint8_t *out);
 
-// --- actions -----------------------------------------------------------------------------------
-
-// Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
-void dip_compare_divide(DipToolState *tools, double at);
-
-// In a wipe, moves the divider by `steps` times 1/64 of the picture's width. In a difference,
-// doubles the gain `steps` times; steps below 0 halve it. Returns false if the chosen comparison
-// has neither divider nor gain.
-bool dip_compare_adjust(DipToolState *tools, int steps);
+// --- time --------------------------------------------------------------------------------------
 
 // Returns the pane that the comparison BLINK or ALONE shows at the time `now_ns`.
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns);

@@ -64,10 +64,7 @@ static void draw_panes(DipUi *ui, const DipWindow *window) {
         const DipPixels *picture = dip_compare_picture(window, p, &version);
         dip_ui_picture(ui, panes[p], picture, version);
     }
-    const DipRect *left = &panes[DIP_PANE_CURRENT];
-    const int gap = panes[DIP_PANE_REQUESTED].x - left->x - left->width;
-    dip_ui_fill(ui, (DipRect){left->x + left->width, left->y, gap, left->height},
-                dip_style_background);
+    dip_ui_fill(ui, dip_layout_gap(window->layout), dip_style_background);
 }
 
 void dip_compare_pictures(DipUi *ui, DipWindow *window) {
@@ -107,7 +104,7 @@ static void drag_divider(DipUi *ui, DipWindow *window, const DipUiInput *input) 
         return;
     }
     const bool to_middle = input->modifiers & DIP_MODIFIER_SHIFT;
-    dip_compare_divide(tools, to_middle ? 0.5 : (input->x - shown.x + 0.5) / shown.width);
+    dip_tool_state_divide(tools, to_middle ? 0.5 : (input->x - shown.x + 0.5) / shown.width);
 }
 
 // Declares the divider as a control of its own. A divider in the middle lies in the gap between the

@@ -51,6 +51,12 @@ DipLayout dip_layout_make(int width, int height, double scale, bool open, bool b
     return layout;
 }
 
+DipRect dip_layout_gap(const DipLayout *layout) {
+    const DipRect *left = &layout->panes[DIP_PANE_CURRENT];
+    const int x = left->x + left->width;
+    return (DipRect){x, left->y, layout->panes[DIP_PANE_REQUESTED].x - x, left->height};
+}
+
 void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
                             int *width, int *height) {
     *width = 2 * pane_width + DIP_PANE_GAP_PX;

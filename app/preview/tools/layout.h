@@ -42,6 +42,9 @@ DipLayout dip_layout_make(int width, int height, double scale, bool open, bool b
 void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
                             int *width, int *height);
 
+// Returns the rectangle of the gap between the panes.
+DipRect dip_layout_gap(const DipLayout *layout);
+
 // Returns the height of an open dock below the panes, with its bar, at scale 1.
 int dip_layout_dock_height(void);
 

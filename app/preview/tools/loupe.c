@@ -63,15 +63,6 @@ DipRect dip_loupe_mark(DipRect shown, int width, int height, DipRect source) {
     return (DipRect){shown.x + x0, shown.y + y0, x1 - x0, y1 - y0};
 }
 
-void dip_loupe_zoom(DipToolState *tools, int steps) {
-    for (; steps > 0 && tools->zoom < DIP_LOUPE_MAX_ZOOM; --steps) {
-        tools->zoom *= 2;
-    }
-    for (; steps < 0 && tools->zoom > DIP_LOUPE_MIN_ZOOM; ++steps) {
-        tools->zoom /= 2;
-    }
-}
-
 static int clamped(int value, int count) {
     return dip_max(0, dip_min(value, count - 1));
 }

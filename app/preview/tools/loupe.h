@@ -41,9 +41,6 @@ bool dip_loupe_pixel_at(DipRect shown, int width, int height, int window_x, int 
 // is scaled to the rectangle `shown`. If the picture is scaled down, the rectangle may be empty.
 DipRect dip_loupe_mark(DipRect shown, int width, int height, DipRect source);
 
-// Doubles the zoom `steps` times, or halves it for steps below 0, within its range.
-void dip_loupe_zoom(DipToolState *tools, int steps);
-
 // Pins the loupe, and moves it by whole pixels within a picture of width x height pixels.
 void dip_loupe_move(DipToolState *tools, int dx, int dy, int width, int height);
 

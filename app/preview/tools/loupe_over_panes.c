@@ -54,7 +54,7 @@ static void handle_panes(DipWindow *window, const DipUiInput panes[DIP_PANE_COUN
         }
         if (input->steps && (input->modifiers & DIP_MODIFIER_CTRL)) {
             tools->loupe = true;
-            dip_loupe_zoom(tools, input->steps);
+            dip_tool_state_zoom(tools, input->steps);
         }
     }
 }
@@ -73,8 +73,8 @@ static void draw_mip_legend(DipUi *ui, DipRect shown) {
     const int top = shown.y + shown.height - margin - height * (COUNT / across);
     for (int i = 0; i < COUNT; ++i) {
         const DipColour ground = dip_map_mip_colour(i);
-        char name[16];
-        snprintf(name, sizeof name, i == COUNT - 1 ? "\u2264%d" : "%d", 1024 >> i);
+        char name[DIP_MIP_TEXT_BYTES];
+        dip_map_mip_text(i, name);
         const DipRect rect = {shown.x + margin + i % across * cell, top + i / across * height, cell,
                               height};
         dip_ui_fill(ui, rect, ground);

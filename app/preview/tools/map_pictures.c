@@ -1,5 +1,5 @@
 // Draws the pictures of the maps of error and work that lie over the panes (maps.h). Says why a map
-// is missing or not yet final, and reads sizes of mip levels from the map of mip colours.
+// is missing or not yet final, and finds sizes of mip levels in the map of mip colours.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tools/maps.h"
 
@@ -230,6 +230,14 @@ DipColour dip_map_mip_colour(int index) {
     return mip_colours[index];
 }
 
+void dip_map_mip_text(int index, char text[DIP_MIP_TEXT_BYTES]) {
+    snprintf(text, DIP_MIP_TEXT_BYTES, "%s%d",
+             index == 0                          ? "\u2265"
+             : index == DIP_MIP_DEBUG_LEVELS - 1 ? "\u2264"
+                                                 : "",
+             1024 >> index);
+}
+
 // Returns the squared distance of a pixel from a colour. Light may have dimmed the pixel, so the
 // function takes the brightness of the colour, from 0.3 to 1, that fits the pixel best.
 static double distance_from(const uint8_t *pixel, const double colour[3]) {
@@ -246,15 +254,15 @@ static double distance_from(const uint8_t *pixel, const double colour[3]) {
     return distance;
 }
 
-int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y) {
+int dip_maps_mip_index(const DipMaps *maps, int pane, int x, int y) {
     enum { BLENDS = 4, FARTHEST = 60 };
     const DipMapWork *work = dip_maps_work(maps, pane);
     if (!work->mips || x < 0 || y < 0 || x >= work->width || y >= work->height) {
-        return 0;
+        return -1;
     }
     const uint8_t *pixel = work->mips + 4 * ((size_t)y * (size_t)work->width + (size_t)x);
     double least = FARTHEST * FARTHEST;
-    int size = 0;
+    int index = -1;
     for (int i = 0; i < BLENDS * (DIP_MIP_DEBUG_LEVELS - 1) + 1; i++) {
         const int level = dip_min(i / BLENDS, DIP_MIP_DEBUG_LEVELS - 2);
         const double part = (double)(i - level * BLENDS) / BLENDS;
@@ -262,11 +270,13 @@ int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y) {
         const double colour[3] = {a->red + part * (b->red - a->red),
                                   a->green + part * (b->green - a->green),
                                   a->blue + part * (b->blue - a->blue)};
+        // A pixel may have a colour itself, or a brighter one that light has dimmed. The darker
+        // colour comes first, and rounding must not prefer the brighter one.
         const double distance = distance_from(pixel, colour);
-        if (distance < least) {
+        if (distance < least - 1e-6) {
             least = distance;
-            size = 1024 >> (part < 0.5 ? level : level + 1);
+            index = part < 0.5 ? level : level + 1;
         }
     }
-    return size;
+    return index;
 }

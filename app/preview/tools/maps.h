@@ -152,15 +152,18 @@ bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const 
 const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
                             char *text, size_t size_bytes);
 
-// Returns roughly the side, in texels, of the mip level that a pixel of the map DIP_MAP_MIPS shows:
-// 1024 >> index for the colour that is most like the pixel's (dip_map_mip_colour). Returns 0 if no
-// colour is similar or the map is not known. Light may dim the pixel's colour, and colours of two
-// levels mix where levels are blended.
-int dip_maps_mip_size(const DipMaps *maps, int pane, int x, int y);
+// Returns the index of the colour (dip_map_mip_colour) that is most like a pixel of the map
+// DIP_MAP_MIPS, or -1 if no colour is similar or the map is not known. Light may dim the pixel's
+// colour, and colours of two levels mix where levels are blended.
+int dip_maps_mip_index(const DipMaps *maps, int pane, int x, int y);
 
 // Returns one of the colours that stand for sizes of mip levels. The colour `index` (0..7) stands
 // for levels whose side has at least 1024 >> index texels, but less than twice as many. Colour 0
 // also stands for all larger levels, colour 7 for all smaller ones.
 DipColour dip_map_mip_colour(int index);
+
+// Writes the size for which a colour stands: "≥1024", "512", ..., "≤8".
+enum { DIP_MIP_TEXT_BYTES = 16 };
+void dip_map_mip_text(int index, char text[DIP_MIP_TEXT_BYTES]);
 
 #endif

@@ -1,5 +1,4 @@
-// Draws the thumbnails of a path with a painter of the strip's own. Once all thumbnails are drawn,
-// a later update frees the painter.
+// Draws the thumbnails of a path with a painter of the strip's own.
 #include "app/preview/tools/strip.h"
 
 #include "campaths/campath.h"
@@ -84,19 +83,24 @@ static bool draw_thumbnail(DipStrip *strip, const DipToolsInput *input) {
     return true;
 }
 
-bool dip_strip_update(DipStrip *strip, const DipToolsInput *input) {
-    const bool wanted = strip->wanted && input->still && !input->session->gallery;
-    strip->wanted = false;
-    if (!wanted) {
-        return false;
-    }
+// Draws the next thumbnail if there is one to draw. Returns whether it drew one.
+static bool draw_next(DipStrip *strip, const DipToolsInput *input) {
     follow_subject(strip, input);
     if (strip->failed || !strip->subject.path || strip->drawn == DIP_STRIP_COUNT) {
-        dip_painter_destroy(&strip->painter);
         return false;
     }
     strip->failed = !draw_thumbnail(strip, input);
     return !strip->failed;
+}
+
+bool dip_strip_update(DipStrip *strip, const DipToolsInput *input) {
+    const bool wanted = strip->wanted && input->still && !input->session->gallery;
+    const bool drew = wanted && draw_next(strip, input);
+    strip->wanted = false;
+    if (!drew || strip->drawn == DIP_STRIP_COUNT) {
+        dip_painter_destroy(&strip->painter);
+    }
+    return drew;
 }
 
 DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index) {

@@ -28,8 +28,7 @@ typedef struct DipStripSubject {
 
 typedef struct DipStrip {
     DipStripSubject subject;
-    // Draws the thumbnails. Created before the first thumbnail is drawn. Freed by a later update
-    // once all thumbnails are drawn or one has failed.
+    // Draws the thumbnails. NULL after an update that drew no thumbnail or the last one.
     DipPainter *painter;
     DipCanvas pictures[DIP_STRIP_COUNT];
     uint64_t versions[DIP_STRIP_COUNT];

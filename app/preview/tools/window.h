@@ -49,7 +49,8 @@ void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DI
 void dip_fly_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_COUNT]);
 
 // Lets arrow keys move the loupe by a pixel, or with Shift by 8 pixels, while the loupe is on. Keys
-// with Ctrl, Alt or Super do not move it. Call it for events that no control took. Returns whether
+// with Ctrl, Alt or Super do not move it. Call it for events that neither a control nor the focus
+// took. Returns whether
 // the event moved the loupe.
 bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event);
 

@@ -25,6 +25,10 @@ static cJSON *add_zero(cJSON *const object, const char *const name) {
     return cJSON_AddNumberToObject(object, name, 0.0);
 }
 
+static cJSON *add_false(cJSON *const object, const char *const name) {
+    return cJSON_AddFalseToObject(object, name);
+}
+
 static void add_missing(cJSON *object, const char *name,
                         cJSON *(*add)(cJSON *const object, const char *const name)) {
     if (object && !cJSON_GetObjectItemCaseSensitive(object, name)) {
@@ -218,6 +222,7 @@ static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, c
     add_counters_of(cJSON_GetObjectItemCaseSensitive(
         cJSON_GetObjectItemCaseSensitive(root, "smaller"), "combinations"));
     add_searched(cJSON_GetObjectItemCaseSensitive(root, "predicted"));
+    add_missing(root, "several_builds", add_false); // Files of older versions lack it.
     if (!times_fit(root, size_bytes)) {
         return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "rows",
                              "are fewer than their number of rounds and frames says");

@@ -2,7 +2,6 @@
 #include "app/report/format/fields.h"
 
 #include "renderer/base/assert.h"
-#include "renderer/scene/quality.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,6 +10,7 @@
 #include "app/measure/stats/estimate.h"
 #include "app/report/words.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -131,7 +132,6 @@ void *dip_field_member(const DipField *field, const DipFieldAt *at);
 
 // Returns the text of a value that is a text, a name or settings, or NULL for other kinds. The text
 // of settings is written to `settings`.
-enum { DIP_SETTINGS_BYTES = 256 };
 const char *dip_field_as_text(const DipField *field, const void *value,
                               char settings[DIP_SETTINGS_BYTES]);
 

@@ -47,8 +47,8 @@ static void write_next(DipForm *form, const DipCandidates *candidates, const Dip
 }
 
 void dip_section_ini(DipForm *form, const DipQuality *quality) {
-    char text[300] = "REQUESTED: ";
-    dip_quality_format(quality, text + strlen(text), 256);
+    char text[DIP_SETTINGS_BYTES + 16] = "REQUESTED: ";
+    dip_quality_format(quality, text + strlen(text), DIP_SETTINGS_BYTES);
     dip_form_code(form, "Line for ini", text);
 }
 
@@ -145,7 +145,7 @@ static const void *derive_line(const DipFieldAt *at, DipFieldScratch *scratch) {
     const DipQuality *quality = ((const DipCostTier *)at->item)->quality;
     strcpy(scratch->text, quality ? "REQUESTED: " : "nothing surely fits");
     if (quality) {
-        dip_quality_format(quality, scratch->text + strlen(scratch->text), 256);
+        dip_quality_format(quality, scratch->text + strlen(scratch->text), DIP_SETTINGS_BYTES);
     }
     return scratch->text;
 }
@@ -294,6 +294,11 @@ static void write_facts(DipForm *form, const DipCostReport *report) {
     } else {
         dip_form_fact(form, "Version", "Diptych %s", report->version);
     }
+    if (report->several_builds) {
+        dip_form_fact(form, "Warning",
+                      "The parts of this report were measured by different builds of Diptych, so "
+                      "their errors may be those of different pictures.");
+    }
     dip_form_fact(form, "Baseline", "%s", baseline);
     if (report->rounds > 0) {
         dip_form_fact(form, "Times",
@@ -382,7 +387,7 @@ void dip_section_interactions(DipForm *form, const DipCostReport *report) {
 
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {
     DipCostLine lines[DIP_COST_MAX_SWEEP_ROWS];
-    char id[32], set[32], title[DIP_COST_TEXT], caption[256], order[2 * DIP_COST_TEXT];
+    char id[32], set[32], title[DIP_COST_TEXT], caption[DIP_COST_TEXT + 64], order[2 * DIP_COST_TEXT];
     snprintf(id, sizeof id, "steps-%d", sweep);
     snprintf(set, sizeof set, "sweep-%d", sweep);
     dip_cost_sweep_title(report, &report->sweeps[sweep], title);

@@ -5,6 +5,7 @@
 #include "tests/app/control/random_lines.h"
 
 #include <cjson/cJSON.h>
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,6 +16,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -478,6 +480,52 @@ static void a_full_pipe_does_not_hold_up_the_program(void **state) {
     assert_int_equal(topics, 0);
 }
 
+// Sends long events to standard output, which nobody reads. Ends the process after 20 s if a write
+// waits.
+static void flood_standard_output(void) {
+    static char long_text[20001];
+    const DipControlDef def = make_def("-");
+    memset(long_text, 'x', sizeof long_text - 1);
+    alarm(20);
+    DipControl *standard = dip_control_open(&def, NULL);
+    for (int i = 0; i < 100 && standard; ++i) {
+        cJSON *fields = cJSON_CreateObject();
+        cJSON_AddStringToObject(fields, "text", long_text);
+        dip_control_poll(standard);
+        dip_control_send(standard, DIP_CONTROL_TOPIC_NOTICES, fields);
+    }
+    _exit(standard && dip_control_topics(standard) ? 0 : 1);
+}
+
+// A pipe without permissions cannot be opened again. Root may open it all the same, so the process
+// becomes another user.
+static void a_pipe_that_cannot_be_opened_again_holds_up_nothing(void **state) {
+    (void)state;
+    static const char requests[] = "{\"request\":\"subscribe\",\"to\":\"notices\"}\n";
+    int in[2], out[2], status;
+    fflush(stdout);
+    assert_true(pipe(in) == 0 && pipe(out) == 0);
+    assert_int_equal(fchmod(out[1], 0), 0);
+    assert_true(write(in[1], requests, sizeof requests - 1) > 0);
+    const pid_t pid = fork();
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        dup2(in[0], STDIN_FILENO);
+        dup2(out[1], STDOUT_FILENO);
+        if (geteuid() == 0 && setuid(65534) != 0) {
+            _exit(2);
+        }
+        if (open("/proc/self/fd/1", O_WRONLY | O_NONBLOCK) >= 0) {
+            _exit(3);
+        }
+        flood_standard_output();
+    }
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    close(in[0]), close(in[1]), close(out[0]), close(out[1]);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
 // --- random lines --------------------------------------------------------------------------------
 
 static RandomLine lines[64];
@@ -562,6 +610,7 @@ int main(void) {
         CONTROL_TEST(closing_removes_only_its_own_socket),
         CONTROL_TEST(standard_streams_carry_the_protocol),
         CONTROL_TEST(a_full_pipe_does_not_hold_up_the_program),
+        CONTROL_TEST(a_pipe_that_cannot_be_opened_again_holds_up_nothing),
         CONTROL_TEST(ten_thousand_random_lines_get_a_reply_each),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cjson/cJSON.h>
 #include <cmocka.h>
@@ -53,6 +55,106 @@ static bool has_note(const char *part) {
 }
 
 static DipCostDiffGroup groups[DIP_COST_DIFF_QUANTITY_COUNT];
+
+// --- a report and a program ----------------------------------------------------------------------
+
+// Measures the report again with a program that only records its arguments. Writes these and the
+// error.
+static void measure(const DipCostDiffArguments *arguments, char recorded[4096], DipError *err) {
+    char folder[] = "/tmp/test_cost_diff.XXXXXX", program[64], file[64];
+    DipCostReport measured;
+    assert_non_null(mkdtemp(folder));
+    snprintf(program, sizeof program, "%s/program", folder);
+    snprintf(file, sizeof file, "%s/arguments", folder);
+    FILE *out = fopen(program, "w");
+    assert_non_null(out);
+    fprintf(out, "#!/bin/sh\necho \"$@\" >%s\nexit 2\n", file);
+    assert_true(fclose(out) == 0 && chmod(program, 0700) == 0);
+    assert_false(dip_cost_diff_measure_report(arguments, program, &a, &measured, err));
+    FILE *in = fopen(file, "r");
+    assert_non_null(in);
+    recorded[fread(recorded, 1, 4095, in)] = '\0';
+    fclose(in);
+    assert_true(unlink(file) == 0 && unlink(program) == 0 && rmdir(folder) == 0);
+}
+
+// Every option that says what the programs draw reaches them: all options of the tables of which
+// the command line consists.
+static void every_option_of_the_scene_reaches_the_program(void **state) {
+    (void)state;
+    static const DipOptionTable *const tables[] = {
+        &dip_scene_option_table, &dip_path_option_table, &dip_category_option_table,
+        &dip_size_option_table, &dip_threads_option_table};
+    DipCostDiffArguments arguments = {.set_count = 1, .measure.starts = 2};
+    DipError err = {0};
+    char recorded[4096], expected[512], name[64];
+    arguments.session = (DipSessionOptions){.config = "c.ini",
+                                            .models = {"a.glb", "b.glb"},
+                                            .model_count = 2,
+                                            .scene = "s",
+                                            .look = 1,
+                                            .up = (DipUpAxis)1,
+                                            .has_shading = true,
+                                            .import_seconds = 5,
+                                            .force_all_effects = true,
+                                            .no_ground = true,
+                                            .animation = "walk",
+                                            .has_animation_time = true,
+                                            .animation_time_s = 1.5,
+                                            .path = "p.pth",
+                                            .category = "AF",
+                                            .has_size = true,
+                                            .size = {8, 6},
+                                            .has_threads = true,
+                                            .threads = 2,
+                                            .has_isa = true};
+    assert_true(dip_quality_parse("aa=4", &arguments.sets[0].quality, NULL));
+    make();
+    measure(&arguments, recorded, &err);
+    snprintf(expected, sizeof expected,
+             " --config c.ini --model a.glb --model b.glb --scene s --look 2 --up %s --shading %s "
+             "--import-seconds 5 --force-all-effects --no-ground --animation walk "
+             "--animation-time 1.5 --path p.pth --category AF --size 8x6 --threads 2 --isa %s ",
+             dip_up_axis_names[1], dip_model_shading_names[0], dip_isa_name((DipIsa)0));
+    if (!strstr(recorded, expected)) {
+        fail_msg("the program got%s, expected%s", recorded, expected);
+    }
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
+        for (size_t i = 0; i < tables[t]->count; i++) {
+            snprintf(name, sizeof name, " %s ", tables[t]->rows[i].name);
+            if (!strstr(recorded, name)) {
+                fail_msg("the program did not get%s", name);
+            }
+        }
+    }
+    done();
+}
+
+// The report knows only the name of a path that --path gave. The program gets this name, with a
+// model, too. If it does not start, the error says what the user may have to add.
+static void a_path_of_the_report_is_asked_for(void **state) {
+    (void)state;
+    char recorded[4096];
+    for (int models = 0; models < 2; models++) {
+        for (int given = 0; given < 3; given++) {
+            DipCostDiffArguments arguments = {
+                .session = {.models = {"m.glb"}, .model_count = models}, .set_count = 1};
+            DipError err = {0};
+            arguments.measure.starts = 2;
+            assert_true(dip_quality_parse("aa=4", &arguments.sets[0].quality, NULL));
+            make();
+            strcpy(a.paths[0], given == 2 ? "AF" : "tour");
+            arguments.session.path = given == 1 ? "far/tour.pth" : NULL;
+            measure(&arguments, recorded, &err);
+            assert_true((strstr(recorded, " --path tour ") != NULL) == (given == 0));
+            assert_true((strstr(recorded, " --path far/tour.pth ") != NULL) == (given == 1));
+            assert_true((strstr(recorded, " --category AF ") != NULL) == (given == 2 && !models));
+            assert_true((strstr(err.message, "\"tour\" of the report, give the path's file or "
+                                             "camera with --path") != NULL) == (given == 0));
+            done();
+        }
+    }
+}
 
 // --- what differs --------------------------------------------------------------------------------
 
@@ -376,6 +478,8 @@ static void doubtful_causes_are_not_sure(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_option_of_the_scene_reaches_the_program),
+        cmocka_unit_test(a_path_of_the_report_is_asked_for),
         cmocka_unit_test(equal_reports_do_not_differ),
         cmocka_unit_test(one_error_is_named),
         cmocka_unit_test(one_counter_is_named_with_its_rows),

@@ -572,8 +572,22 @@ static void csv_and_page_are_complete(void **state) {
     dip_cost_report_free(&report);
 }
 
+// The settings of a row are written whole, however long their text is.
+static void long_settings_are_not_cut(void **state) {
+    (void)state;
+    static const char longest[] =
+        "aa=8,taa=alternate,aaa=coverage,asd=2,af=16,aaf=on,opt=advanced,miplod=high-performance,"
+        "scale=1/1.7,upscale=bicubic,post=fxaa,sharpen=medium,shadows=1024,gi=off,mipdebug=on";
+    DipQuality quality;
+    char text[DIP_COST_TEXT];
+    assert_true(dip_quality_parse(longest, &quality, NULL));
+    dip_cost_settings_text(&quality, text);
+    assert_string_equal(text, longest);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(long_settings_are_not_cut),
         cmocka_unit_test(metrics_are_means),
         cmocka_unit_test(errors_below_three_noise_floors_are_marked),
         cmocka_unit_test(steps_out_of_order_are_named),

@@ -2,7 +2,9 @@
 // Usage: test_preview_gallery SOURCE_FOLDER
 #include "tests/app/display/fake_display.h"
 #include "app/preview/loop/loop.h"
+#include "app/preview/state/pilot.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +17,7 @@
 
 enum { WIDTH = 402, HEIGHT = 240, FIRST_ROW = 80, LAST_ROW = 210 };
 
-static char ini[512];
+static char ini[512], model[512];
 static DipSessionOptions options;
 static DipSession session;
 static DipDisplay display;
@@ -27,9 +29,15 @@ static bool no_scene_def(void *context, DipError *err) {
     return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "scene", "there is none");
 }
 
+// Opens a scene of the gallery, or the model if `scene` is NULL.
 static void open_scene(const char *scene) {
     DipErrorList faults = {0};
-    options = (DipSessionOptions){.config = ini, .scene = scene, .has_threads = true, .threads = 1};
+    options = (DipSessionOptions){.config = ini,
+                                  .scene = scene,
+                                  .models = {model},
+                                  .model_count = scene ? 0 : 1,
+                                  .has_threads = true,
+                                  .threads = 1};
     const DipSessionDef def = {.options = &options, .scene = true, .renderers = true};
     if (!dip_session_open(&session, &def, &faults)) {
         fail_msg("%s", faults.items[0].message);
@@ -96,6 +104,37 @@ static void keys_change_the_scene(void **state) {
     assert_int_equal(session.gallery_scene, begin);
 }
 
+// A model is orbited, and a scene of the gallery is not. Each begins with the speed that suits it,
+// whatever speed the user has chosen in the scene before.
+static void each_scene_begins_a_flight_of_its_own(void **state) {
+    (void)state;
+    open_scene(NULL);
+    turn();
+    const DipFlight *flight = &dip_preview_state(preview)->flight;
+    assert_true(flight->orbits);
+    press('\\', 0); // Frees the camera,
+    press('\\', 0); // and ends the orbit, so that the wheel changes the speed.
+    const DipEvent wheel = {.kind = DIP_EVENT_MOUSE_WHEEL, .x = 50, .y = 100, .wheel_y = 3.0};
+    dip_fake_display_push(fake, &wheel);
+    turn();
+    assert_false(flight->orbits);
+    assert_int_equal(flight->speed_steps, 3);
+    press(DIP_KEYCODE_PAGE_DOWN, DIP_MODIFIER_CTRL);
+    assert_true(dip_preview_state(preview)->shows_gallery);
+    assert_false(flight->orbits);
+    assert_true(dip_flight_speed(flight) == 3.0);
+    press(DIP_KEYCODE_PAGE_UP, DIP_MODIFIER_CTRL);
+    assert_false(dip_preview_state(preview)->shows_gallery);
+    assert_true(flight->orbits);
+    float low[3], high[3];
+    double squared = 0.0;
+    dip_scene_bounds(session.scene, low, high);
+    for (int i = 0; i < 3; i++) {
+        squared += ((double)high[i] - low[i]) * ((double)high[i] - low[i]);
+    }
+    assert_true(fabs(dip_flight_speed(flight) - sqrt(squared) / 4.0) < 1e-9);
+}
+
 static void a_key_changes_the_look(void **state) {
     (void)state;
     open_scene("toon");
@@ -143,10 +182,12 @@ static void the_tour_goes_from_scene_to_scene(void **state) {
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(keys_change_the_scene, close_scene),
+        cmocka_unit_test_teardown(each_scene_begins_a_flight_of_its_own, close_scene),
         cmocka_unit_test_teardown(a_key_changes_the_look, close_scene),
         cmocka_unit_test_teardown(settings_change_the_requested_pane, close_scene),
         cmocka_unit_test_teardown(the_tour_goes_from_scene_to_scene, close_scene),
     };
     snprintf(ini, sizeof ini, "%s/config/courtyard.ini", argc > 1 ? argv[1] : ".");
+    snprintf(model, sizeof model, "%s/assets/gallery/pump.glb", argc > 1 ? argv[1] : ".");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -303,19 +303,35 @@ static void test_position_tells_the_pane_and_the_pixel(void **state) {
 static void test_brackets_move_the_divider_or_the_gain(void **state) {
     (void)state;
     DipToolState tools = {.comparison = DIP_COMPARE_WIPE, .divider = 0.5};
-    assert_true(dip_compare_adjust(&tools, -8));
+    assert_true(dip_tool_state_adjust(&tools, -8));
     assert_true(fabs(tools.divider - 0.375) < 1e-12);
-    dip_compare_adjust(&tools, -1000);
+    dip_tool_state_adjust(&tools, -1000);
     assert_true(tools.divider <= 0.0);
     tools.comparison = DIP_COMPARE_DIFFERENCE;
-    dip_compare_adjust(&tools, 3);
+    dip_tool_state_adjust(&tools, 3);
     assert_int_equal(tools.gain, 8);
-    dip_compare_adjust(&tools, 30);
+    dip_tool_state_adjust(&tools, 30);
     assert_int_equal(tools.gain, DIP_COMPARE_MAX_GAIN);
-    dip_compare_adjust(&tools, -30);
+    dip_tool_state_adjust(&tools, -30);
     assert_int_equal(tools.gain, 1);
     tools.comparison = DIP_COMPARE_SIDE_BY_SIDE;
-    assert_false(dip_compare_adjust(&tools, 1));
+    assert_false(dip_tool_state_adjust(&tools, 1));
+}
+
+// The keys [ and ] and the slider of the tab move the divider by the same step, and change the gain
+// alike. Side by side, they change nothing.
+static void test_keys_step_as_the_slider_does(void **state) {
+    (void)state;
+    for (int comparison = 0; comparison < DIP_COMPARISON_COUNT; ++comparison) {
+        for (int back = 0; back < 2; ++back) {
+            DipToolState expected = {
+                .comparison = (DipComparison)comparison, .divider = 0.5, .gain = 8};
+            tw.state.tools = expected;
+            dip_tool_state_adjust(&expected, back ? -1 : 1);
+            dip_preview_act(&tw.state, DIP_ACTION_ADJUST, 0, back, 0);
+            assert_memory_equal(&tw.state.tools, &expected, sizeof expected);
+        }
+    }
 }
 
 // --- the strip -----------------------------------------------------------------------------------
@@ -331,6 +347,7 @@ static void test_strip_is_drawn_one_thumbnail_at_a_time(void **state) {
         for (int later = i + 1; later < DIP_STRIP_COUNT; later++) {
             assert_int_equal(dip_strip_thumbnail(strip, later).picture.width, 0);
         }
+        assert_true((strip->painter != NULL) == (i + 1 < DIP_STRIP_COUNT));
     }
     dip_tool_window_draw(&tw);
     assert_false(dip_tool_window_update(&tw));
@@ -345,6 +362,25 @@ static void test_strip_is_drawn_one_thumbnail_at_a_time(void **state) {
         assert_memory_equal(third.picture.rgba8 + (size_t)y * third.picture.stride_bytes,
                             frame.rgba8 + (size_t)y * frame.stride_bytes, 4 * (size_t)frame.width);
     }
+}
+
+// While nobody looks at an incomplete strip, it keeps its thumbnails but no painter.
+static void test_a_hidden_strip_keeps_no_painter(void **state) {
+    (void)state;
+    DipStrip *strip = &tw.tools->strip;
+    for (int i = 0; i < 3; i++) {
+        dip_tool_window_draw(&tw);
+        assert_true(dip_tool_window_update(&tw));
+    }
+    assert_non_null(strip->painter);
+    tw.state.tools.tab = DIP_TAB_LOUPE;
+    dip_tool_window_draw(&tw);
+    dip_tool_window_update(&tw);
+    assert_null(strip->painter);
+    tw.state.tools.tab = DIP_TAB_COMPARE;
+    dip_tool_window_draw(&tw);
+    assert_true(dip_tool_window_update(&tw));
+    assert_int_equal(strip->drawn, 4);
 }
 
 int main(void) {
@@ -363,7 +399,9 @@ int main(void) {
         IN_WINDOW(test_divider_is_dragged_and_stays_in_the_picture),
         IN_WINDOW(test_position_tells_the_pane_and_the_pixel),
         cmocka_unit_test(test_brackets_move_the_divider_or_the_gain),
+        IN_WINDOW(test_keys_step_as_the_slider_does),
         IN_WINDOW(test_strip_is_drawn_one_thumbnail_at_a_time),
+        IN_WINDOW(test_a_hidden_strip_keeps_no_painter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -174,6 +174,47 @@ static void the_camera_does_not_tip_over(void **unused) {
     assert_looks(0.0, 70.0);
 }
 
+// A camera on its side sees the horizon upright, so turning it upwards turns it about the world's
+// vertical axis, all the way round.
+static void a_camera_on_its_side_turns_all_the_way_round(void **unused) {
+    (void)unused;
+    for (int roll = -1; roll <= 1; roll += 2) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+            pose.orientation[0] = pose.orientation[1] = 0.0;
+            pose.orientation[2] = sin(45 * roll * rad);
+            pose.orientation[3] = cos(45 * roll * rad);
+            for (int i = 1; i <= 36; ++i) {
+                double m[3][3];
+                dip_camera_look(&pose, 0.0, sign * 10.0);
+                matrix_of(&pose, m);
+                assert_true(fabs(m[1][2]) < 1e-9); // The line of sight stays level
+                assert_true(fabs(-m[2][2] + cos(10 * i * rad)) < 1e-9); // and turns.
+                assert_true(fabs(-m[0][2] + roll * sign * sin(10 * i * rad)) < 1e-9);
+            }
+        }
+    }
+}
+
+// A camera that is a little rolled stops where its up vector is nearly level, and turns back.
+static void a_rolled_camera_does_not_tip_over(void **unused) {
+    (void)unused;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double m[3][3];
+        pose.orientation[0] = pose.orientation[1] = 0.0;
+        pose.orientation[2] = sin(15 * rad);
+        pose.orientation[3] = cos(15 * rad);
+        for (int i = 0; i < 40; ++i) {
+            dip_camera_look(&pose, 0.0, sign * 7.0);
+        }
+        matrix_of(&pose, m);
+        assert_true(fabs(m[1][1] - cos(30 * rad) * cos(89 * rad)) < 1e-9);
+        assert_true(fabs(-m[1][2] - sign * cos(30 * rad) * sin(89 * rad)) < 1e-9);
+        dip_camera_look(&pose, 0.0, -sign * 89.0);
+        matrix_of(&pose, m);
+        assert_true(fabs(m[1][2]) < 1e-9);
+    }
+}
+
 static void the_right_button_frees_the_camera_and_a_click_pins_the_loupe(void **unused) {
     (void)unused;
     drag(DIP_MOUSE_LEFT, 100, 0); // The left button only chooses the pane.
@@ -390,6 +431,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         FLIGHT_TEST(dragging_turns_the_free_camera),
         FLIGHT_TEST(the_camera_does_not_tip_over),
+        FLIGHT_TEST(a_camera_on_its_side_turns_all_the_way_round),
+        FLIGHT_TEST(a_rolled_camera_does_not_tip_over),
         FLIGHT_TEST(the_right_button_frees_the_camera_and_a_click_pins_the_loupe),
         FLIGHT_TEST(the_wipe_keeps_the_left_button),
         FLIGHT_TEST(orbiting_keeps_the_centre_in_the_picture),

@@ -100,11 +100,11 @@ static void test_positions_and_marks_agree_with_scaled_panes(void **state) {
 static void test_zoom_and_moves_stay_in_range(void **state) {
     (void)state;
     DipToolState tools = {.zoom = 8, .x = 3, .y = 3};
-    dip_loupe_zoom(&tools, 9);
+    dip_tool_state_zoom(&tools, 9);
     assert_int_equal(tools.zoom, DIP_LOUPE_MAX_ZOOM);
-    dip_loupe_zoom(&tools, -2);
+    dip_tool_state_zoom(&tools, -2);
     assert_int_equal(tools.zoom, 8);
-    dip_loupe_zoom(&tools, -9);
+    dip_tool_state_zoom(&tools, -9);
     assert_int_equal(tools.zoom, DIP_LOUPE_MIN_ZOOM);
     dip_loupe_move(&tools, -5, 1, 10, 8);
     assert_true(tools.pinned && tools.x == 0 && tools.y == 4);
@@ -225,6 +225,41 @@ static void test_right_click_pins_and_arrows_move(void **state) {
     assert_false(tw.state.tools.pinned);
     const DipEvent letter = {.kind = DIP_EVENT_KEY_DOWN, .key = (DipKeycode)'x'};
     assert_false(dip_loupe_press(&tw.state, PANE_WIDTH, PANE_HEIGHT, &letter));
+}
+
+// The pointer lies over a crop. Wherever Tab has moved the focus, an arrow key only moves the
+// focus; without a focus, it moves the loupe by one pixel in its direction.
+static void test_arrows_move_the_loupe_and_never_zoom(void **state) {
+    (void)state;
+    static const struct {
+        DipKeycode key;
+        int dx, dy;
+    } arrows[] = {{DIP_KEYCODE_LEFT, -1, 0},
+                  {DIP_KEYCODE_RIGHT, 1, 0},
+                  {DIP_KEYCODE_UP, 0, -1},
+                  {DIP_KEYCODE_DOWN, 0, 1}};
+    const DipRect crop = crop_area(DIP_PANE_REQUESTED);
+    const DipEvent tab = {.kind = DIP_EVENT_KEY_DOWN, .key = DIP_KEYCODE_TAB};
+    dip_tool_window_draw(&tw);
+    dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_DOWN, DIP_MOUSE_LEFT, crop.x + 100, crop.y + 120);
+    dip_tool_window_mouse(&tw, DIP_EVENT_MOUSE_UP, DIP_MOUSE_LEFT, crop.x + 100, crop.y + 120);
+    assert_true(tw.state.tools.pinned);
+    for (int i = 0; i < 4 * 12; ++i) {
+        const DipEvent event = {.kind = DIP_EVENT_KEY_DOWN, .key = arrows[i % 4].key};
+        const DipToolState before = tw.state.tools;
+        for (int tabs = 0; tabs < i / 4; ++tabs) {
+            assert_true(dip_tool_window_event(&tw, &tab));
+        }
+        const bool taken = dip_tool_window_event(&tw, &event);
+        assert_memory_equal(&tw.state.tools, &before, sizeof before);
+        assert_int_equal(taken, i / 4 > 0); // The click has hidden the focus.
+        if (!taken) {
+            assert_true(dip_loupe_press(&tw.state, PANE_WIDTH, PANE_HEIGHT, &event));
+            assert_int_equal(tw.state.tools.x, before.x + arrows[i % 4].dx);
+            assert_int_equal(tw.state.tools.y, before.y + arrows[i % 4].dy);
+        }
+        dip_ui_blur(tw.ui);
+    }
 }
 
 // --- samples -----------------------------------------------------------------------------------
@@ -353,6 +388,7 @@ int main(void) {
         IN_WINDOW(test_crops_show_the_frames_pixels),
         IN_WINDOW(test_loupe_follows_the_pointer_in_scaled_panes),
         IN_WINDOW(test_right_click_pins_and_arrows_move),
+        IN_WINDOW(test_arrows_move_the_loupe_and_never_zoom),
         IN_WINDOW(test_a_closed_loupe_reads_no_samples),
         IN_WINDOW(test_samples_of_all_pixels_of_the_crops_resolve_to_the_panes),
         IN_WINDOW(test_copied_panes_share_their_samples),

@@ -328,12 +328,29 @@ static void the_pictures_show_the_work(void **state) {
     assert_true(dip_maps_picture(stage.maps, &tools, 1, &shown, 1, &picture, &version));
     int known = 0;
     for (int i = 0; i < PIXELS; i++) {
-        const int size = dip_maps_mip_size(stage.maps, 1, i % WIDTH, i / WIDTH);
-        assert_true(size == 0 || (size >= 8 && size <= 1024));
-        known += size != 0;
+        const int index = dip_maps_mip_index(stage.maps, 1, i % WIDTH, i / WIDTH);
+        assert_in_range(index + 1, 0, DIP_MIP_DEBUG_LEVELS);
+        known += index >= 0;
     }
     assert_true(known > PIXELS / 10); // The background has no mip colour.
-    assert_int_equal(dip_maps_mip_size(stage.maps, 1, WIDTH, 5), 0);
+    assert_int_equal(dip_maps_mip_index(stage.maps, 1, WIDTH, 5), -1);
+}
+
+// The first and the last colour also stand for all larger and all smaller levels, and say so
+// wherever they are explained: in the legends and at the pixel under the pointer.
+static void the_ends_of_the_mip_colours_say_that_they_are_open(void **state) {
+    (void)state;
+    static const char *const expected[DIP_MIP_DEBUG_LEVELS] = {
+        "\u22651024", "512", "256", "128", "64", "32", "16", "\u22648"};
+    for (int i = 0; i < DIP_MIP_DEBUG_LEVELS; i++) {
+        char text[DIP_MIP_TEXT_BYTES];
+        const DipColour colour = dip_map_mip_colour(i);
+        uint8_t pixel[4] = {colour.red, colour.green, colour.blue, 255};
+        DipMaps maps = {.panes = {{.width = 1, .height = 1, .mips = pixel}}};
+        assert_int_equal(dip_maps_mip_index(&maps, 0, 0, 0), i);
+        dip_map_mip_text(i, text);
+        assert_string_equal(text, expected[i]);
+    }
 }
 
 // --- over the panes ------------------------------------------------------------------------------
@@ -388,6 +405,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(times_are_medians_of_several_draws, open_stage,
                                         close_stage),
         cmocka_unit_test_setup_teardown(the_pictures_show_the_work, open_stage, close_stage),
+        cmocka_unit_test(the_ends_of_the_mip_colours_say_that_they_are_open),
         cmocka_unit_test(a_chosen_map_lies_over_the_panes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -517,6 +517,35 @@ static void clicks_are_picks(void **state) {
     assert_string_equal(take(), "nothing");
 }
 
+// Where one picture takes the place of both panes, a press picks the pixel of the picture that
+// shows there, and the pane that shows it.
+static void clicks_pick_in_every_comparison(void **state) {
+    (void)state;
+    static const struct {
+        int presses; // How often a key chooses the next comparison.
+        int x;
+        const char *event;
+    } cases[] = {
+        {1, 20, "\"pane\":\"current\",\"button\":\"left\",\"x\":20,\"y\":60,"},
+        {1, 110, "\"pane\":\"requested\",\"button\":\"left\",\"x\":110,\"y\":60,"},
+        {2, 110, "\"pane\":\"current\",\"button\":\"left\",\"x\":110,\"y\":60,"},
+        {3, 110, "\"pane\":\"current\",\"button\":\"left\",\"x\":110,\"y\":60,"},
+    };
+    assert_ok("{\"request\":\"subscribe\",\"to\":\"picks\"}");
+    for (size_t i = 0, pressed = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        for (; pressed < (size_t)cases[i].presses; ++pressed) {
+            dip_fake_display_press(fake, (DipKeycode)'j', 0);
+            turn();
+        }
+        assert_ok("{\"request\":\"panel\",\"show\":\"off\"}"); // The drawer would cover a pane.
+        turn();
+        dip_fake_display_click(fake, DIP_MOUSE_LEFT, cases[i].x, 60, 1);
+        if (!await_event(cases[i].event)) {
+            fail_msg("no event with %s", cases[i].event);
+        }
+    }
+}
+
 // The preview asks for settings four times a second; the panel answers with `set`.
 static void polls_ask_for_settings(void **state) {
     (void)state;
@@ -615,6 +644,7 @@ int main(int argc, char **argv) {
         CONTROL_TEST(prices_are_measured_for_subscribers),
         CONTROL_TEST(prices_read_a_broken_scene_file_only_once),
         CONTROL_TEST(clicks_are_picks),
+        CONTROL_TEST(clicks_pick_in_every_comparison),
         CONTROL_TEST(polls_ask_for_settings),
         CONTROL_TEST(random_lines_do_no_harm),
     };

@@ -507,6 +507,26 @@ static void drops_are_opened_in_their_order(void **state) {
     assert_int_equal(session.options->model_count, 0);
 }
 
+// The preset "As at start" has the settings of the ini that was dropped last. A dropped path
+// changes no settings.
+static void as_at_start_follows_a_dropped_ini(void **state) {
+    (void)state;
+    static const char *const drops[] = {"other.ini", "still.pth"};
+    char text[sizeof ini + 64];
+    snprintf(text, sizeof text, "%sREQUESTED: aa=8,af=4\n", ini);
+    write_file("other.ini", text);
+    turn();
+    for (size_t i = 0; i < sizeof drops / sizeof drops[0]; ++i) {
+        DipQuality begun;
+        drop(drops[i]);
+        wait_for("Opened");
+        press('x', 0);
+        assert_true(dip_preview_preset(dip_preview_state(preview), DIP_PRESET_INI, &begun));
+        assert_int_equal(dip_quality_sample_count(&begun), 8);
+        assert_int_equal(dip_quality_max_anisotropy(&begun), 4);
+    }
+}
+
 static void a_flood_of_drops_is_refused(void **state) {
     (void)state;
     turn();
@@ -663,6 +683,7 @@ int main(int argc, char **argv) {
         FILES_TEST(a_screenshot_does_not_reload),
         FILES_TEST(good_and_bad_drops_never_end_the_preview),
         FILES_TEST(drops_are_opened_in_their_order),
+        FILES_TEST(as_at_start_follows_a_dropped_ini),
         FILES_TEST(a_flood_of_drops_is_refused),
         FILES_TEST(errors_follow_the_new_scene),
         FILES_TEST(the_user_chooses_an_animation_or_none),

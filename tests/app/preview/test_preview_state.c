@@ -159,6 +159,7 @@ static void the_free_camera_does_not_stop_the_scene(void **state) {
 // Every action has a function, and only those that need no window act in a terminal.
 static void every_action_is_carried_out(void **state) {
     Fixture *f = *state;
+    f->state.tools.comparison = DIP_COMPARE_WIPE; // Has a divider to adjust.
     const DipPreviewState before = f->state;
     for (int in_terminal = 0; in_terminal < 2; ++in_terminal) {
         for (int a = 0; a < DIP_ACTION_COUNT; ++a) {
@@ -389,7 +390,7 @@ static void each_preset_has_its_own_settings(void **state) {
     }
     f->state.choice = NULL;
     const DipQuality other = parse("aa=6");
-    f->state.ini_quality = other;
+    f->state.begun_quality[DIP_PANE_REQUESTED] = other;
     press(f, DIP_ACTION_PRESET, DIP_PRESET_INI, false);
     assert_memory_equal(&f->state.quality[DIP_PANE_REQUESTED], &other, sizeof other);
     press(f, DIP_ACTION_PRESET, DIP_PRESET_CURRENT, false);

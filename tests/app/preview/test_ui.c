@@ -271,6 +271,24 @@ static void a_click_on_a_disabled_control_shows_its_tip(void **state) {
     assert_true(dip_ui_wakes_ns(ui) <= now_ns);
 }
 
+// Wherever the user clicks, the focus that Tab has moved shows no more and takes no keys.
+static void any_click_hides_the_focus(void **state) {
+    (void)state;
+    static const int places[][2] = {{60, 30}, {10, 10}, {10, 130}, {60, 130}, {300, 190}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
+        press(DIP_KEYCODE_TAB, 0);
+        assert_int_not_equal(dip_ui_focus(ui), 0);
+        mouse(DIP_EVENT_MOUSE_DOWN, places[i][0], places[i][1]);
+        mouse(DIP_EVENT_MOUSE_UP, places[i][0], places[i][1]);
+        assert_int_equal(dip_ui_focus(ui), 0);
+        pass(NULL, NULL);
+        for (int c = 0; c < COUNT; ++c) {
+            assert_false(inputs[c].focused);
+        }
+        assert_false(press(DIP_KEYCODE_RIGHT, 0));
+    }
+}
+
 // A drawing pass reports no input, and hovers what an event pass hovers.
 static void drawing_reports_no_input(void **state) {
     (void)state;
@@ -315,6 +333,7 @@ int main(void) {
         UI_TEST(the_wheel_counts_whole_steps),
         UI_TEST(a_tip_covers_no_row),
         UI_TEST(a_tip_appears_after_a_while),
+        UI_TEST(any_click_hides_the_focus),
         UI_TEST(drawing_reports_no_input),
         UI_TEST(a_lost_control_takes_no_keys),
         UI_TEST(a_click_on_a_disabled_control_shows_its_tip),

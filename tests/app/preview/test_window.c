@@ -128,6 +128,27 @@ static void the_parts_of_the_window_lie_apart(void **unused) {
     }
 }
 
+// The line between the panes fills the whole gap, which is three pixels wide in a window of odd
+// width.
+static void the_line_between_the_panes_fills_the_gap(void **unused) {
+    (void)unused;
+    for (input.width = 1282; input.width < 1284; ++input.width) {
+        const DipLayout layout = dip_view_layout(&input);
+        const DipRect left = layout.panes[DIP_PANE_CURRENT];
+        assert_true(dip_view_draw(view, &input, NULL));
+        const DipPixels picture = dip_view_picture(view);
+        int columns = 0;
+        for (int x = left.x + left.width; x < layout.panes[DIP_PANE_REQUESTED].x; ++x, ++columns) {
+            const uint8_t *pixel =
+                picture.rgba8 + (size_t)(left.height / 2) * picture.stride_bytes + 4 * (size_t)x;
+            assert_int_equal(pixel[0], dip_style_accent.red);
+            assert_int_equal(pixel[1], dip_style_accent.green);
+            assert_int_equal(pixel[2], dip_style_accent.blue);
+        }
+        assert_int_equal(columns, 2 + input.width % 2);
+    }
+}
+
 // Visits all controls with Tab and collects the settings that it reaches in this state.
 static unsigned visit(bool *apply) {
     unsigned settings = 0;
@@ -516,6 +537,7 @@ int main(void) {
 #define WINDOW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         WINDOW_TEST(the_parts_of_the_window_lie_apart),
+        WINDOW_TEST(the_line_between_the_panes_fills_the_gap),
         WINDOW_TEST(the_keyboard_reaches_every_setting),
         WINDOW_TEST(clicks_and_drags_choose_a_step),
         WINDOW_TEST(keys_change_the_focused_setting),

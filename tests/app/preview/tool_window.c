@@ -139,12 +139,12 @@ void dip_tool_window_draw(DipToolWindow *tw) {
     assert_true(dip_draw_list_paint(tw->list, &tw->canvas, &damage, NULL));
 }
 
-void dip_tool_window_event(DipToolWindow *tw, const DipEvent *event) {
+bool dip_tool_window_event(DipToolWindow *tw, const DipEvent *event) {
     DipUiPass pass = pass_of(tw);
     pass.event = event;
     dip_ui_begin(tw->ui, &pass);
     declare(tw);
-    dip_ui_end(tw->ui);
+    return dip_ui_end(tw->ui);
 }
 
 void dip_tool_window_mouse(DipToolWindow *tw, DipEventKind kind, DipMouseButton button, int x,

@@ -38,8 +38,8 @@ void dip_tool_window_draw_frames(DipToolWindow *tw, const char *current, const c
 // Runs a drawing pass, in which the tools may ask for samples and thumbnails.
 void dip_tool_window_draw(DipToolWindow *tw);
 
-// Runs an event pass.
-void dip_tool_window_event(DipToolWindow *tw, const DipEvent *event);
+// Runs an event pass. Returns whether a control or the focus took the event.
+bool dip_tool_window_event(DipToolWindow *tw, const DipEvent *event);
 void dip_tool_window_mouse(DipToolWindow *tw, DipEventKind kind, DipMouseButton button, int x,
                            int y);
 

@@ -259,7 +259,8 @@ static void next_better_is_one(void **state) {
             if (a->chosen < 0) {
                 continue;
             }
-            char settings[DIP_COST_TEXT], part[300], ms[DIP_NUMBER_BYTES], fits[DIP_NUMBER_BYTES];
+            char settings[DIP_COST_TEXT], part[DIP_COST_TEXT + 64], ms[DIP_NUMBER_BYTES],
+                fits[DIP_NUMBER_BYTES];
             const DipCandidate *shown = &choice->candidates.list[choice->advice.chosen];
             const DipCandidate *printed = &common.candidates.list[by_command.all.chosen];
             assert_memory_equal(&shown->quality, &list[a->chosen].quality, sizeof(DipQuality));

@@ -27,8 +27,10 @@ printf 'RES: 8x8\nXFILE: cameras.gltf\nCAMPATH_DEFAULT: Still\nCAMPATH_AA: Lens\
 check "the ini's path can be a camera" test "$(fov_of --config cameras.ini | cut -c1-8)" = 68.75493
 check "the ini's field of view comes first" test "$(fov_of --config cameras.ini --category AA)" = 31
 printf 'RES: 8x8\nXFILE: cameras.gltf\nCAMPATH_DEFAULT: Lens\nCAMPATH_AA: Lens\n' >twice.ini
-check "two of the ini's paths can be one camera" \
-    test "$(fov_of --config twice.ini)" = "$(fov_of --config twice.ini --category AA)"
+lens=$(fov_of --config cameras.ini --path Lens)
+check "a camera has a field of view of its own, found: $lens" test "$lens" != 60 -a "$lens" != ""
+check "the first of two paths can be this camera" test "$(fov_of --config twice.ini)" = "$lens"
+check "the second one can be it, too" test "$(fov_of --config twice.ini --category AA)" = "$lens"
 hash_of() {
     "$diptych" dump "$@" --size 16x16 --hash 2>err.txt
 }

@@ -154,6 +154,22 @@ static void formatting_returns_the_length_as_snprintf_does(void **state) {
     assert_int_equal(cut[sizeof cut - 1], '\0');
 }
 
+// The longest text that settings can have, valid or not, and its zero fit into DIP_SETTINGS_BYTES.
+static void every_text_fits_its_buffers(void **state) {
+    (void)state;
+    DipQuality longest;
+    for (int s = 0; s < DIP_SETTING_COUNT; s++) {
+        const DipSettingInfo *info = dip_setting_info((DipSetting)s);
+        longest.step[s] = 0;
+        for (int i = 1; i < info->step_count; i++) {
+            if (strlen(info->steps[i]) > strlen(info->steps[longest.step[s]])) {
+                longest.step[s] = (uint8_t)i;
+            }
+        }
+    }
+    assert_true(dip_quality_format(&longest, NULL, 0) < DIP_SETTINGS_BYTES);
+}
+
 static void short_texts_list_changes_only(void **state) {
     (void)state;
     char text[64];
@@ -292,6 +308,7 @@ static void labels_fit_where_they_are_shown(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(settings_have_their_documented_defaults),
+        cmocka_unit_test(every_text_fits_its_buffers),
         cmocka_unit_test(short_texts_list_changes_only),
         cmocka_unit_test(settings_without_effect_are_turned_off),
         cmocka_unit_test(needs_are_named_where_a_setting_has_no_effect),

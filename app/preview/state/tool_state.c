@@ -1,0 +1,36 @@
+// Changes what the user has chosen for examining the pictures, within the ranges of these choices.
+#include "app/preview/state/tool_state.h"
+
+enum { DIVIDER_STEPS = 64 }; // Steps of the divider across the picture.
+
+// Doubles a value `steps` times, or halves it for steps below 0, within a range.
+static int doubled(int value, int steps, int least, int most) {
+    value = value < least ? least : value;
+    for (; steps > 0 && value < most; --steps) {
+        value *= 2;
+    }
+    for (; steps < 0 && value > least; ++steps) {
+        value /= 2;
+    }
+    return value;
+}
+
+void dip_tool_state_zoom(DipToolState *tools, int steps) {
+    tools->zoom = doubled(tools->zoom, steps, DIP_LOUPE_MIN_ZOOM, DIP_LOUPE_MAX_ZOOM);
+}
+
+void dip_tool_state_divide(DipToolState *tools, double at) {
+    tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
+}
+
+bool dip_tool_state_adjust(DipToolState *tools, int steps) {
+    if (tools->comparison == DIP_COMPARE_WIPE) {
+        dip_tool_state_divide(tools, tools->divider + (double)steps / DIVIDER_STEPS);
+        return true;
+    }
+    if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
+        tools->gain = doubled(tools->gain, steps, 1, DIP_COMPARE_MAX_GAIN);
+        return true;
+    }
+    return false;
+}
