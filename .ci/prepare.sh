@@ -5,7 +5,7 @@ PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetyp
     fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev
     libmeshoptimizer-dev libdraco-dev g++ libwebp-dev" # The last line: packed models and pictures.
 PACKAGES_TEST="$PACKAGES_RUN git doxygen clang clang-format libcmocka-dev lld xvfb xauth xdotool imagemagick
-    python3 python3-cffi python3-numpy dpkg-dev file"
+    python3 python3-cffi python3-numpy dpkg-dev"
 # The cost report's page; one machine that acts as several.
 PACKAGES_LONG="chromium chromium-driver python3-selenium python3-pil poppler-utils parallel munge slurm-wlm"
 PACKAGES_LINT="clang-tidy cppcheck"
