@@ -5,7 +5,7 @@ PACKAGES_RUN="gcc cmake ninja-build pkg-config libsdl2-dev libx11-dev libfreetyp
     fonts-dejavu-core libinih-dev libstb-dev libassimp-dev libcjson-dev
     libmeshoptimizer-dev libdraco-dev g++ libwebp-dev" # The last line: packed models and pictures.
 PACKAGES_TEST="$PACKAGES_RUN git doxygen clang clang-format libcmocka-dev lld xvfb xauth xdotool imagemagick
-    python3 python3-cffi python3-numpy dpkg-dev file"
+    python3 python3-cffi python3-numpy dpkg-dev"
 # The cost report's page; one machine that acts as several.
 PACKAGES_LONG="chromium chromium-driver python3-selenium python3-pil poppler-utils parallel munge slurm-wlm"
 PACKAGES_LINT="clang-tidy cppcheck"
@@ -44,17 +44,32 @@ TEXT
     DEBIAN_FRONTEND=noninteractive $install >&2
 }
 
-# build PRESET [TARGET]: configures and builds. Shows the build's output only if it fails.
-build() {
+# shown_if_it_fails PRESET COMMAND...: appends the command's output to the build's log.
+shown_if_it_fails() {
     log="$TOP/build/$1.log"
-    mkdir -p "$TOP/build"
-    if [ ! -f "$TOP/build/$1/build.ninja" ]; then
-        echo "Configuring and building ($1). The first time takes about a minute ..." >&2
-    fi
-    if ! (cd "$TOP" && cmake --preset "$1" && cmake --build --preset "$1" ${2:+--target "$2"}) \
-        >"$log" 2>&1; then
+    shift
+    if ! (cd "$TOP" && "$@") >>"$log" 2>&1; then
         cat "$log" >&2
         echo "The build failed. Its output is also in $log" >&2
         return 1
     fi
+}
+
+configured= # the preset that was configured last
+
+# configure PRESET: does nothing if this preset was the last that was configured.
+configure() {
+    [ "${configured:-}" != "$1" ] || return 0
+    mkdir -p "$TOP/build"
+    if [ ! -f "$TOP/build/$1/build.ninja" ]; then
+        echo "Configuring and building ($1). The first time takes about a minute ..." >&2
+    fi
+    : >"$TOP/build/$1.log"
+    shown_if_it_fails "$1" cmake --preset "$1" || return 1
+    configured=$1
+}
+
+# build PRESET [TARGET]: configures and builds. Shows the build's output only if it fails.
+build() {
+    configure "$1" && shown_if_it_fails "$1" cmake --build --preset "$1" ${2:+--target "$2"}
 }

@@ -9,6 +9,16 @@ cd "$folder" || exit 1
 failures=0
 checks=0
 
+# Debian's interpreter, as in the tests that are written in Python. Another python3 that comes first in
+# PATH may be a script, whose start takes longer than what it computes here.
+python3() {
+    if [ -x /usr/bin/python3 ]; then
+        /usr/bin/python3 "$@"
+    else
+        command python3 "$@"
+    fi
+}
+
 # fail TEXT [FILE]: counts a fault and prints it, with the file's lines if there are any. Without
 # FILE, it prints what the last command wrote to standard error.
 fail() {

@@ -125,7 +125,7 @@ documented() {
 }
 
 part_packages() {
-    inside build "get dpkg-dev file; cd diptych
+    inside build "get dpkg-dev; cd diptych
         { $(documented 'cmake --preset'); $(documented 'cpack '); } >/dev/null"
     package=$(echo "$folder"/build/root/diptych/build/release/*.deb)
     make_system deb
