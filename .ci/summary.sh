@@ -28,13 +28,14 @@ keep_part() {
     part_name=
 }
 
-# run_ctest PRESET [CTEST OPTION]...: one job more than there are processors, since some tests wait.
+# run_ctest PRESET [CTEST OPTION]...: two jobs more than there are processors, since some tests wait
+# (tests/CMakeLists.txt).
 run_ctest() {
     ctest_preset=$1
     shift
     ctest_count=$(ls "$SUMMARY" | wc -l)
     ctest --test-dir "build/$ctest_preset" --output-on-failure --no-tests=error \
-        --output-junit "$SUMMARY/$ctest_count-$ctest_preset.xml" -j $(($(nproc) + 1)) "$@"
+        --output-junit "$SUMMARY/$ctest_count-$ctest_preset.xml" -j $(($(nproc) + 2)) "$@"
 }
 
 # Prints, also after a failure, what the parts took and which tests were left out or skipped.
