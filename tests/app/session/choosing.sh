@@ -6,7 +6,9 @@
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-python3 "$2/docs/choosing.py" errors "$1" "$folder/out" --size 48x36 --cache "$folder/cache" >"$folder/table"
+python=/usr/bin/python3 # Debian's, as in ../program.sh
+[ -x "$python" ] || python=python3
+"$python" "$2/docs/choosing.py" errors "$1" "$folder/out" --size 48x36 --cache "$folder/cache" >"$folder/table"
 sed -n 's/^\(| `*[a-z][^|]*\) | \.[0-9]* | \.[0-9]* | \..*/\1/p' "$2/docs/choosing.md" | tr -d '`' >"$folder/rows"
 [ "$(wc -l <"$folder/rows")" -ge 16 ] || { echo "FAILED: the page has no table" >&2; exit 1; }
 while read -r row; do
@@ -16,7 +18,7 @@ while read -r row; do
         exit 1
     }
 done <"$folder/rows"
-python3 -B -c '
+"$python" -B -c '
 import sys
 sys.path.insert(0, sys.argv[1])
 import choosing
