@@ -173,22 +173,6 @@ static int different_pictures(const DipBenchResult *here, const DipBenchResult *
     return different;
 }
 
-// Returns the sum over the frames of each frame's fastest round. The fastest round has the least
-// noise, because noise only ever adds time.
-static double fastest_ms(const DipBenchResult *result, int combination) {
-    const DipBenchOptions *options = &result->plan->options;
-    const double *ms = dip_bench_result_ms(result, combination, DIP_BENCH_STAGE_total);
-    double sum = 0.0;
-    for (int frame = 0; frame < options->frames; frame++) {
-        double least = ms[frame];
-        for (int round = 1; round < options->measure.rounds; round++) {
-            least = fmin(least, ms[round * options->frames + frame]);
-        }
-        sum += least;
-    }
-    return sum;
-}
-
 static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *other,
                             int combination, FILE *out) {
     double medians[2][DIP_BENCH_STAGE_COUNT];
@@ -200,7 +184,9 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
     fprintf(out, " %8.3f %8.3f", medians[1][DIP_BENCH_STAGE_total],
             medians[0][DIP_BENCH_STAGE_total]);
     print_estimate(&other->ratios[combination], "-", out);
-    fprintf(out, " %7.3f ", fastest_ms(other, combination) / fastest_ms(here, combination));
+    fprintf(out, " %7.3f ",
+            dip_bench_result_fastest_ms(other, combination, DIP_BENCH_STAGE_total) /
+                dip_bench_result_fastest_ms(here, combination, DIP_BENCH_STAGE_total));
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
         if (medians[0][stage] > 0.0) {
             fprintf(out, " %8.3f", medians[1][stage] / medians[0][stage]);
