@@ -121,11 +121,6 @@ void dip_bench_print_times(const DipBenchResult *result, FILE *out) {
 enum { WORK_COLUMNS = 6 };
 
 static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
-    static const char *const names[DIP_COUNTER_COUNT] = {
-#define COUNTER_NAME(name, text) #name,
-        DIP_COUNTER_LIST(COUNTER_NAME)
-#undef COUNTER_NAME
-    };
     double means[WORK_COLUMNS][DIP_COUNTER_COUNT];
     fprintf(out, "\n%-22s", "row (means per frame)");
     for (int i = 0; i < count; i++) {
@@ -133,7 +128,7 @@ static void print_work_block(const DipBenchResult *result, const int *shown, int
         dip_bench_result_work(result, shown[i], means[i]);
     }
     for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
-        fprintf(out, "\n%-22s", names[c]);
+        fprintf(out, "\n%-22s", dip_counter_names[c]);
         for (int i = 0; i < count; i++) {
             fprintf(out, " %12.0f", means[i][c]);
         }
@@ -234,9 +229,9 @@ static void print_csv_heading(bool programs, FILE *out) {
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         fprintf(out, ",%s_ms", dip_bench_stage_names[stage]);
     }
-#define PRINT_NAME(name, text) fprintf(out, ",%s_count", #name);
-    DIP_COUNTER_LIST(PRINT_NAME)
-#undef PRINT_NAME
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        fprintf(out, ",%s_count", dip_counter_names[c]);
+    }
     fprintf(out, "\n");
 }
 

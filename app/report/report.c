@@ -14,12 +14,6 @@ const char *const dip_cost_picture_kind_names[3] = {
     [DIP_COST_PICTURES_NONE] = "none",
 };
 
-const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT] = {
-#define COUNTER_NAME(name, text) #name,
-    DIP_COUNTER_LIST(COUNTER_NAME)
-#undef COUNTER_NAME
-};
-
 const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT] = {
 #define STAGE_NAME(name, text) #name,
     DIP_STAGE_LIST(STAGE_NAME)

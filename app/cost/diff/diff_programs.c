@@ -247,7 +247,7 @@ static void count_work(const Duel *duel, int subject, double *counters) {
     for (int f = 0; f < duel->frames; f++) {
         dip_counters_add(&duel->first[subject * duel->frames + f].counters, counters);
     }
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] /= duel->frames;
     }
 }

@@ -82,11 +82,11 @@ static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
     const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
     const DipCostPrediction few = report->predicted.list[found >= 0 ? found : 0];
-    double all[DIP_COST_COUNTER_COUNT];
+    double all[DIP_COUNTER_COUNT];
     if (!dip_cost_count(there, &few.quality, dip_cost_frame_count(report), all, err)) {
         return false;
     }
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         const double scale = few.counters[c] > 0.0 ? all[c] / few.counters[c] : 1.0;
         for (int i = 0; i < report->predicted.count; i++) {
             report->predicted.list[i].counters[c] *= scale;
