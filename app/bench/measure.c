@@ -2,7 +2,7 @@
 // and counters of every frame.
 #include "app/bench/measure.h"
 
-#include "app/cli/drive.h"
+#include "app/cli/progress.h"
 #include "app/measure/stats/estimate.h"
 
 #include <math.h>

@@ -11,7 +11,6 @@
 // and the last set, which has the same settings.
 #include "app/cost/diff/diff.h"
 
-#include "app/cli/drive.h"
 #include "app/cli/progress.h"
 #include "app/cli/machine.h"
 #include "app/measure/timing/child.h"
