@@ -13,7 +13,7 @@
 static void print_scene(const DipBenchPlan *plan, const DipSession *session, FILE *out) {
     const DipSessionOptions *options = session->options;
     const char *view = plan->options.grid_out_of_view ? ", out of view" : "";
-    if (plan->options.grid_count) {
+    if (plan->options.grids[0]) {
         fprintf(out, "scene    grid%s\n", view);
         return;
     }
@@ -76,7 +76,7 @@ static void print_estimate(const DipEstimate *estimate, const char *unknown, FIL
 static void print_comparison(const DipBenchResult *result, int combination, FILE *out) {
     print_estimate(&result->ratios[combination], combination == result->plan->base ? "base" : "-",
                    out);
-    if (result->plan->options.threads_count > 1) {
+    if (result->plan->options.counts[DIP_BENCH_AXIS_THREADS] > 1) {
         print_estimate(&result->speed_ups[combination], "-", out);
     }
 }
@@ -93,7 +93,7 @@ void dip_bench_print_times(const DipBenchResult *result, FILE *out) {
         fprintf(out, " %9s", dip_bench_stage_names[stage]);
     }
     fprintf(out, " %8s %17s", "ratio", "95 % interval");
-    if (plan->options.threads_count > 1) {
+    if (plan->options.counts[DIP_BENCH_AXIS_THREADS] > 1) {
         fprintf(out, " %8s %17s", "speed-up", "95 % interval");
     }
     fprintf(out, "\n");

@@ -50,7 +50,7 @@ static bool run(const DipSession *session, const char *folder, DipError *err) {
     DipCostContext cost;
     char cache[PATH_MAX], plan[33];
     DipCostArguments arguments = {0};
-    dip_cost_options_default(&arguments, 0, NULL);
+    dip_cost_options_default(&arguments);
     DipCostOptions options = arguments.cost;
     options.has_combined = options.predict = true; // No setting is combined, so none is swept.
     options.places = options.burst = 1;
