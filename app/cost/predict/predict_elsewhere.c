@@ -220,13 +220,8 @@ static bool open_place(Place *place, const DipSession *session, int threads, Dip
 }
 
 static bool find_isa(const DipCostReport *report, DipIsa *isa, const char *name, DipError *err) {
-    for (int i = 0; i < DIP_ISA_COUNT; i++) {
-        if (strcmp(report->isa, dip_isa_name((DipIsa)i)) == 0 && dip_isa_available((DipIsa)i)) {
-            *isa = (DipIsa)i;
-            return true;
-        }
-    }
-    return dip_error_set(err, DIP_ERROR_UNSUPPORTED, name, 0, "isa",
+    return (dip_isa_parse(report->isa, isa) && dip_isa_available(*isa)) ||
+           dip_error_set(err, DIP_ERROR_UNSUPPORTED, name, 0, "isa",
                          "'%.15s' is an instruction set that this machine does not have; measure "
                          "the report on this machine",
                          report->isa);
