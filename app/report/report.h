@@ -295,9 +295,8 @@ DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewp
 // Returns whether a row's errors are known at any viewpoint.
 bool dip_cost_is_judged(const DipCostReport *report, int row);
 
-// Returns the metrics of a row over all judged viewpoints, in one region. Region 0 is the whole
-// picture (app/measure/metrics/metrics.h).
-DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
+// Returns the metrics of a row's whole pictures, over all judged viewpoints.
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row);
 
 // Metrics of the whole picture.
 typedef enum DipCostMetric {

@@ -20,7 +20,7 @@ enum { CHUNK = 256 }; // Combinations that are judged together.
 static void print_flip(const DipCostReport *report, int row, int index) {
     const int at = index % RECORDED_PER_LINE;
     char text[3];
-    recorded_write(dip_cost_row_metrics(report, row, 0).flip, text);
+    recorded_write(dip_cost_row_metrics(report, row).flip, text);
     printf("%s%s%s", at == 0 ? "      \"" : "", text, at == RECORDED_PER_LINE - 1 ? "\",\n" : "");
 }
 
