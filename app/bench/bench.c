@@ -78,9 +78,8 @@ static bool make_grid_view(View *view, const DipBenchPlan *plan, const DipSessio
 // surface (synthetic.h). A relief fills a picture of one aspect ratio, so each aspect ratio needs a
 // view of its own.
 static bool choose_view(Context *bench, int index, const DipSession *session, DipError *err) {
-    const DipBenchOptions *options = &bench->plan->options;
     const DipBenchValues v = dip_bench_values(bench->plan, index);
-    const double aspect = options->grid_count ? (double)v.size.width / v.size.height : 0.0;
+    const double aspect = v.triangles ? (double)v.size.width / v.size.height : 0.0;
     View *view = bench->views;
     while (view < bench->views + bench->view_count &&
            (view->triangles != v.triangles || view->aspect != aspect)) {
@@ -91,9 +90,9 @@ static bool choose_view(Context *bench, int index, const DipSession *session, Di
         return true;
     }
     bench->view_count++;
-    *view = options->grid_count ? (View){.triangles = v.triangles, .aspect = aspect}
-                                : session_view(session);
-    return !options->grid_count || make_grid_view(view, bench->plan, session, err);
+    *view =
+        v.triangles ? (View){.triangles = v.triangles, .aspect = aspect} : session_view(session);
+    return !v.triangles || make_grid_view(view, bench->plan, session, err);
 }
 
 // --- the context -------------------------------------------------------------------------------
@@ -166,7 +165,7 @@ static void destroy_context(Context **context_pointer) {
         dip_scene_destroy(&bench->views[i].own_scene);
         dip_campath_destroy(&bench->views[i].own_path);
     }
-    for (int i = 0; bench->pools && i < bench->plan->options.threads_count; i++) {
+    for (int i = 0; bench->pools && i < bench->plan->options.counts[DIP_BENCH_AXIS_THREADS]; i++) {
         dip_pool_destroy(&bench->pools[i]);
     }
     free(bench->pools);
@@ -185,7 +184,7 @@ static Context *create_context(const DipBenchPlan *plan, const DipSession *sessi
     }
     const size_t count = (size_t)plan->count;
     bench->plan = plan;
-    bench->pools = calloc((size_t)plan->options.threads_count, sizeof(DipPool *));
+    bench->pools = calloc((size_t)plan->options.counts[DIP_BENCH_AXIS_THREADS], sizeof(DipPool *));
     bench->views = calloc(count, sizeof(View));
     bench->drawers = calloc(count, sizeof(Drawer));
     bool made = (bench->pools && bench->views && bench->drawers) ||
@@ -288,8 +287,8 @@ typedef struct Programs {
     int count;
 } Programs;
 
-static bool open_programs(Programs *programs, const DipBenchPlan *plan, const DipSession *session,
-                          DipError *err) {
+static bool open_programs(Programs *programs, const DipProgramOptions *program,
+                          const DipBenchPlan *plan, const DipSession *session, DipError *err) {
     const DipBenchOptions *options = &plan->options;
     const char *const files[2] = {"/proc/self/exe", options->vs};
     *programs = (Programs){.count = options->vs ? 2 : 1};
@@ -299,9 +298,8 @@ static bool open_programs(Programs *programs, const DipBenchPlan *plan, const Di
         return programs->here && dip_bench_result_init(&programs->results[0], plan, err);
     }
     for (int p = 0; p < 2; p++) {
-        const DipChildDef def = {files[p], options->serve.argv, options->serve.argc,
-                                 "bench",  plan->count,         options->frames,
-                                 "--vs"};
+        const DipChildDef def = {files[p],    program->argv,   program->argc, "bench",
+                                 plan->count, options->frames, "--vs"};
         programs->children[p] = dip_child_start(&def, err);
         programs->sources[p] = (DipBenchSource){draw_there, programs->children[p]};
         if (!programs->children[p] || !dip_bench_result_init(&programs->results[p], plan, err)) {
@@ -327,10 +325,11 @@ static bool print_and_write(const Programs *programs, const DipBenchPlan *plan,
            (!options->svg || dip_bench_write_plots(options->svg, &results[0], err));
 }
 
-static bool measure(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
+static bool measure(const DipProgramOptions *program, const DipBenchPlan *plan,
+                    const DipSession *session, DipError *err) {
     Programs programs;
     const bool done =
-        open_programs(&programs, plan, session, err) &&
+        open_programs(&programs, program, plan, session, err) &&
         dip_bench_measure(plan, programs.sources, programs.count, programs.results, err) &&
         print_and_write(&programs, plan, session, err);
     for (int p = 0; p < 2; p++) {
@@ -348,15 +347,16 @@ static bool run(DipSession *session, const void *all_arguments, DipError *err) {
     if (!plan) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "bench", "out of memory");
     }
-    if (bench->svg && !bench->serve.serve && !dip_folder_make(bench->svg, "--svg", err)) {
+    if (bench->svg && !bench->serve && !dip_folder_make(bench->svg, "--svg", err)) {
         free(plan);
         return false;
     }
     dip_bench_plan_make(plan, session, bench);
-    if (!bench->serve.serve) {
+    if (!bench->serve) {
         dip_interrupt_watch();
     }
-    const bool done = bench->serve.serve ? serve(plan, session, err) : measure(plan, session, err);
+    const bool done =
+        bench->serve ? serve(plan, session, err) : measure(&arguments->program, plan, session, err);
     free(plan);
     return done;
 }
@@ -368,7 +368,7 @@ static void describe_session(const void *all_arguments, DipSessionDef *def) {
     const DipBenchArguments *arguments = all_arguments;
     const DipBenchOptions *bench = &arguments->bench;
     def->options = &arguments->session;
-    def->scene = !bench->grid_count && (!bench->vs || bench->serve.serve);
+    def->scene = !bench->counts[DIP_BENCH_AXIS_GRID] && (!bench->vs || bench->serve);
 }
 
 static const DipExample examples[] = {

@@ -4,8 +4,6 @@
 
 #include "renderer/base/assert.h"
 
-#include <math.h>
-
 typedef struct Unit {
     const char *name;
     DipBenchStage stage; // the stage in which the unit's work is done
@@ -29,22 +27,6 @@ static const Unit units[] = {
     {"probe", DIP_BENCH_STAGE_shading, DIP_COUNTER_texture_probes, {DIP_BENCH_FLOOR_PROBE}},
 };
 
-// Returns the mean over the frames of the stage's shortest time in any round, which has the least
-// noise.
-static double fastest_ms(const DipBenchResult *result, int combination, DipBenchStage stage) {
-    const DipBenchOptions *options = &result->plan->options;
-    const double *ms = dip_bench_result_ms(result, combination, stage);
-    double sum = 0.0;
-    for (int frame = 0; frame < options->frames; frame++) {
-        double least = ms[frame];
-        for (int round = 1; round < options->measure.rounds; round++) {
-            least = fmin(least, ms[round * options->frames + frame]);
-        }
-        sum += least;
-    }
-    return sum / options->frames;
-}
-
 // Returns the floor of a unit. For 6 samples, this is the floor for 4.
 static double floor_of(const Unit *unit, int sample_count) {
     const int index = sample_count >= 8 ? 3 : sample_count >= 4 ? 2 : sample_count - 1;
@@ -61,8 +43,8 @@ static void print_row(const DipBenchResult *result, int combination, double ns_p
     for (size_t i = 0; i < DIP_ARRAY_COUNT(units); i++) {
         const Unit *unit = &units[i];
         if (work[unit->counter] > 0.0) {
-            const double cycles = fastest_ms(result, combination, unit->stage) * 1e6 *
-                                  values.threads / ns_per_cycle / work[unit->counter];
+            const double cycles = dip_bench_result_fastest_ms(result, combination, unit->stage) *
+                                  1e6 * values.threads / ns_per_cycle / work[unit->counter];
             fprintf(out, " %9.1f %7.1fx", cycles, cycles / floor_of(unit, sample_count));
         } else {
             fprintf(out, " %9s %8s", "-", "-");

@@ -2,7 +2,7 @@
 // and counters of every frame.
 #include "app/bench/measure.h"
 
-#include "app/cli/drive.h"
+#include "app/cli/progress.h"
 #include "app/measure/stats/estimate.h"
 
 #include <math.h>
@@ -61,6 +61,21 @@ double dip_bench_result_quantile(const DipBenchResult *result, int combination, 
                                  double share) {
     return dip_percentile_of(dip_bench_result_ms(result, combination, stage),
                              (int)values_per_stage(result->plan), share, result->scratch);
+}
+
+double dip_bench_result_fastest_ms(const DipBenchResult *result, int combination,
+                                   DipBenchStage stage) {
+    const DipBenchOptions *options = &result->plan->options;
+    const double *ms = dip_bench_result_ms(result, combination, stage);
+    double sum = 0.0;
+    for (int frame = 0; frame < options->frames; frame++) {
+        double least = ms[frame];
+        for (int round = 1; round < options->measure.rounds; round++) {
+            least = fmin(least, ms[round * options->frames + frame]);
+        }
+        sum += least;
+    }
+    return sum / options->frames;
 }
 
 DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame) {

@@ -41,6 +41,11 @@ const double *dip_bench_result_ms(const DipBenchResult *result, int combination,
 double dip_bench_result_quantile(const DipBenchResult *result, int combination, DipBenchStage stage,
                                  double share);
 
+// Returns the mean over the frames of the stage's shortest time in any round. The shortest time has
+// the least noise, because noise only ever adds time.
+double dip_bench_result_fastest_ms(const DipBenchResult *result, int combination,
+                                   DipBenchStage stage);
+
 // Returns the sample of a frame's first drawing, which has the hash and the counters.
 DipBenchSample *dip_bench_result_first(const DipBenchResult *result, int combination, int frame);
 

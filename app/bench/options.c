@@ -11,51 +11,44 @@
 #include <unistd.h>
 
 #define FIELD(name) offsetof(DipBenchOptions, name)
+#define COUNT(AXIS) FIELD(counts[DIP_BENCH_AXIS_##AXIS])
 
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=4,af=16;aa=8,af=16";
 
 // --- the values of lists -------------------------------------------------------------------------
 
-static bool read_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    (void)row;
-    DipBenchOptions *bench = fields;
-    DipBenchSet *set = &bench->sets[bench->set_count];
-    snprintf(set->text, sizeof set->text, "%s", value);
-    return dip_quality_parse(value, &set->quality, err);
-}
-
 static bool read_isa(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipBenchOptions *bench = fields;
-    return dip_option_isa(row, value, &bench->isas[bench->isa_count], err);
+    return dip_option_isa(row, value, &bench->isas[bench->counts[DIP_BENCH_AXIS_ISA]], err);
 }
 
 // --- the tables ----------------------------------------------------------------------------------
 
 static const DipOptionRow axis_rows[] = {
-    {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_BENCH_MAX_VALUES,
-     .separator = ';', .read = read_set,
+    {"--sets", "LIST", DIP_OPTION_LIST, FIELD(sets), .count = COUNT(SET),
+     .room = DIP_BENCH_MAX_VALUES, .separator = ';', .item = DIP_OPTION_SET,
      .text = "Settings to measure, as SET;SET;... in quotes. The default is aa=none, aa=4 and "
              "aa=8, each without and with af=16."},
-    {"--size", "LIST", DIP_OPTION_LIST, FIELD(sizes), .count = FIELD(size_count),
+    {"--size", "LIST", DIP_OPTION_LIST, FIELD(sizes), .count = COUNT(SIZE),
      .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_SIZE,
      .text = "Sizes of the picture in pixels, as WxH,WxH,... Without the option, the ini's RES "
              "decides."},
-    {"--scale", "LIST", DIP_OPTION_LIST, FIELD(scales), .count = FIELD(scale_count),
+    {"--scale", "LIST", DIP_OPTION_LIST, FIELD(scales), .count = COUNT(SCALE),
      .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_NUMBER, .least = 0.1,
      .most = 1.0, .accepted = "a share of the width and height from 0.1 to 1",
      .text = "Render scales, such as 0.5,1, from 0.1 to 1. The picture is drawn with this share of "
              "its width and height, and enlarged to its size within the measured time."},
-    {"--threads", "LIST", DIP_OPTION_LIST, FIELD(threads), .count = FIELD(threads_count),
+    {"--threads", "LIST", DIP_OPTION_LIST, FIELD(threads), .count = COUNT(THREADS),
      .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_INTEGER,
      .most = DIP_MAX_THREADS,
      .text = "Numbers of threads, such as 1,2. 0 stands for all processors. Without the option, "
              "the ini decides."},
-    {"--isa", "LIST", DIP_OPTION_LIST, .count = FIELD(isa_count), .room = DIP_BENCH_MAX_VALUES,
+    {"--isa", "LIST", DIP_OPTION_LIST, .count = COUNT(ISA), .room = DIP_BENCH_MAX_VALUES,
      .separator = ',', .read = read_isa,
      .text =
          "Instruction sets, such as sse2,avx2: any of auto, scalar, sse2, avx2 and avx512. Without "
          "the option, the ini's ISA decides; its default is the best one of this machine."},
-    {"--grid", "LIST", DIP_OPTION_LIST, FIELD(grids), .count = FIELD(grid_count),
+    {"--grid", "LIST", DIP_OPTION_LIST, FIELD(grids), .count = COUNT(GRID),
      .room = DIP_BENCH_MAX_VALUES, .separator = ',', .item = DIP_OPTION_INTEGER, .least = 2,
      .most = DIP_SYNTHETIC_MAX_TRIANGLES,
      .text =
@@ -98,20 +91,15 @@ const DipOptionParts dip_bench_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
 // --- defaults and checks -------------------------------------------------------------------------
 
-void dip_bench_options_default(void *arguments, int argc, char *const *argv) {
+void dip_bench_options_default(void *arguments) {
     DipBenchOptions *bench = &((DipBenchArguments *)arguments)->bench;
     bench->frames = 12;
     bench->measure.rounds = 10;
-    bench->serve = (DipServeOptions){.argc = argc, .argv = argv};
     dip_option_store(&axis_rows[0], default_sets, bench, NULL);
 }
 
-static int at_least_one(int count) {
-    return count ? count : 1;
-}
-
 static bool varies_in_samples(const DipBenchOptions *bench) {
-    for (int i = 1; i < bench->set_count; i++) {
+    for (int i = 1; i < bench->counts[DIP_BENCH_AXIS_SET]; i++) {
         if (dip_quality_sample_count(&bench->sets[i].quality) !=
             dip_quality_sample_count(&bench->sets[0].quality)) {
             return true;
@@ -122,8 +110,9 @@ static bool varies_in_samples(const DipBenchOptions *bench) {
 
 static bool check_scene(const DipBenchArguments *arguments, DipError *err) {
     const DipSessionOptions *session = &arguments->session;
-    if (arguments->bench.grid_count && (session->model_count || session->scene || session->path ||
-                                        session->category || session->has_pose)) {
+    if (arguments->bench.counts[DIP_BENCH_AXIS_GRID] &&
+        (session->model_count || session->scene || session->path || session->category ||
+         session->has_pose)) {
         return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "--grid",
                              "a grid replaces the scene and its path; leave out --grid or %s",
                              session->model_count ? "--model"
@@ -136,8 +125,12 @@ static bool check_scene(const DipBenchArguments *arguments, DipError *err) {
 }
 
 static bool check_plots(const DipBenchOptions *bench, DipError *err) {
-    if (bench->svg && bench->size_count < 2 && bench->scale_count < 2 && bench->grid_count < 2 &&
-        bench->threads_count < 2 && !varies_in_samples(bench)) {
+    bool varies = varies_in_samples(bench);
+    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
+        varies = varies || (bench->counts[axis] > 1 && axis != DIP_BENCH_AXIS_SET &&
+                            axis != DIP_BENCH_AXIS_ISA);
+    }
+    if (bench->svg && !varies) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--svg",
                              "there is nothing to plot; give more than one value of --size, "
                              "--scale, --grid, --threads, or of aa in --sets");
@@ -149,9 +142,10 @@ static bool check_plots(const DipBenchOptions *bench, DipError *err) {
 
 bool dip_bench_options_check(const void *arguments, DipError *err) {
     const DipBenchOptions *bench = &((const DipBenchArguments *)arguments)->bench;
-    const int count = bench->set_count * at_least_one(bench->threads_count) *
-                      at_least_one(bench->isa_count) * at_least_one(bench->size_count) *
-                      at_least_one(bench->scale_count) * at_least_one(bench->grid_count);
+    int count = 1;
+    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
+        count *= bench->counts[axis] ? bench->counts[axis] : 1;
+    }
     if (count > DIP_BENCH_MAX_COMBINATIONS) {
         return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "bench",
                              "the lists make %d combinations; give values for at most %d", count,
@@ -162,11 +156,11 @@ bool dip_bench_options_check(const void *arguments, DipError *err) {
                              "the bench has at most %d rounds; give more --frames",
                              DIP_BENCH_MAX_ROUNDS);
     }
-    if (bench->grid_out_of_view && !bench->grid_count) {
+    if (bench->grid_out_of_view && !bench->counts[DIP_BENCH_AXIS_GRID]) {
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "--grid-out-of-view",
                              "there is no grid; give one with --grid N,N,...");
     }
-    if (bench->vs && !bench->serve.serve && access(bench->vs, X_OK) != 0) {
+    if (bench->vs && !bench->serve && access(bench->vs, X_OK) != 0) {
         return dip_error_set(err, DIP_ERROR_IO, bench->vs, 0, "--vs", "cannot be run: %s",
                              strerror(errno));
     }

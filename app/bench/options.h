@@ -21,35 +21,36 @@ enum {
     DIP_BENCH_MAX_ROUNDS = 1000
 };
 
-typedef struct DipBenchSet {
-    char text[80]; // The settings as text: as the user typed them, or one of the default sets.
-    DipQuality quality;
-} DipBenchSet;
+// The axes. From row to row of the printed table, the last axis changes fastest.
+typedef enum DipBenchAxis {
+    DIP_BENCH_AXIS_GRID,
+    DIP_BENCH_AXIS_SIZE,
+    DIP_BENCH_AXIS_SCALE,
+    DIP_BENCH_AXIS_SET,
+    DIP_BENCH_AXIS_ISA,
+    DIP_BENCH_AXIS_THREADS,
+    DIP_BENCH_AXIS_COUNT
+} DipBenchAxis;
 
 // What to measure. Pointers to texts are borrowed from argv. A grid is a test scene of about a
 // given number of triangles; without grids, the bench draws the session's scene. An empty list of
 // scales stands for the scale 1. An empty list of threads, instruction sets or sizes stands for one
 // value, which comes from the ini or the machine.
 typedef struct DipBenchOptions {
-    DipBenchSet sets[DIP_BENCH_MAX_VALUES];
-    int set_count;
+    int counts[DIP_BENCH_AXIS_COUNT]; // Numbers of values on the axes, in the lists that follow.
+    DipOptionSet sets[DIP_BENCH_MAX_VALUES];
     int threads[DIP_BENCH_MAX_VALUES]; // 0 stands for all processors.
-    int threads_count;
     DipIsa isas[DIP_BENCH_MAX_VALUES];
-    int isa_count;
     DipOptionSize sizes[DIP_BENCH_MAX_VALUES];
-    int size_count;
     double scales[DIP_BENCH_MAX_VALUES]; // 0.1..1.
-    int scale_count;
-    int grids[DIP_BENCH_MAX_VALUES]; // Numbers of triangles.
-    int grid_count;
+    int grids[DIP_BENCH_MAX_VALUES];     // Numbers of triangles.
     bool grid_out_of_view;
     int frames;
     DipMeasureOptions measure; // If no seed is given, the plan (plan.h) chooses one.
     const char *csv;
     const char *svg;
     const char *vs;
-    DipServeOptions serve;
+    bool serve; // True if another process has started this one to draw frames for it.
 } DipBenchOptions;
 
 // The whole command line of `diptych bench`.
@@ -62,7 +63,7 @@ typedef struct DipBenchArguments {
 extern const DipCommand dip_bench_command; // Defined in bench.c.
 extern const DipOptionParts dip_bench_option_parts;
 
-void dip_bench_options_default(void *arguments, int argc, char *const *argv);
+void dip_bench_options_default(void *arguments);
 bool dip_bench_options_check(const void *arguments, DipError *err);
 
 #endif

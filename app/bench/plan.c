@@ -8,25 +8,32 @@
 #include <stdio.h>
 #include <string.h>
 
+// Gives every empty list its one value.
 static void fill_in(DipBenchOptions *options, const DipSession *session) {
     const DipConfig *config = &session->config;
-    if (!options->threads_count) {
-        options->threads[options->threads_count++] = dip_pool_thread_count(session->pool);
+    int *counts = options->counts;
+    if (!counts[DIP_BENCH_AXIS_THREADS]) {
+        options->threads[0] = dip_pool_thread_count(session->pool);
     }
-    for (int i = 0; i < options->threads_count; i++) {
+    for (int i = 0; i < counts[DIP_BENCH_AXIS_THREADS]; i++) {
         if (options->threads[i] == 0) {
             options->threads[i] = dip_machine_processor_count();
         }
     }
-    if (!options->isa_count) {
-        options->isas[options->isa_count++] = session->isa;
+    if (!counts[DIP_BENCH_AXIS_ISA]) {
+        options->isas[0] = session->isa;
     }
-    if (!options->size_count) {
-        options->sizes[options->size_count++] =
-            (DipOptionSize){config->res.width, config->res.height};
+    if (!counts[DIP_BENCH_AXIS_SIZE]) {
+        options->sizes[0] = (DipOptionSize){config->res.width, config->res.height};
     }
-    if (!options->scale_count) {
-        options->scales[options->scale_count++] = 1.0;
+    if (!counts[DIP_BENCH_AXIS_SCALE]) {
+        options->scales[0] = 1.0;
+    }
+    if (!counts[DIP_BENCH_AXIS_GRID]) {
+        options->grids[0] = 0;
+    }
+    for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
+        counts[axis] = counts[axis] ? counts[axis] : 1;
     }
     options->measure.seed = dip_measure_seed(&options->measure);
 }
@@ -36,15 +43,7 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
     plan->options = *options;
     fill_in(&plan->options, session);
     const DipBenchOptions *o = &plan->options;
-    const int counts[DIP_BENCH_AXIS_COUNT] = {
-        [DIP_BENCH_AXIS_GRID] = o->grid_count ? o->grid_count : 1,
-        [DIP_BENCH_AXIS_SIZE] = o->size_count,
-        [DIP_BENCH_AXIS_SCALE] = o->scale_count,
-        [DIP_BENCH_AXIS_SET] = o->set_count,
-        [DIP_BENCH_AXIS_ISA] = o->isa_count,
-        [DIP_BENCH_AXIS_THREADS] = o->threads_count,
-    };
-    memcpy(plan->counts, counts, sizeof counts);
+    const int *counts = o->counts;
     plan->count = 1;
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
         plan->count *= counts[axis];
@@ -57,7 +56,8 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
         }
     }
     plan->base = 0;
-    for (int i = 0; i < plan->count; i += o->set_count * o->isa_count * o->threads_count) {
+    for (int i = 0; i < plan->count; i += counts[DIP_BENCH_AXIS_SET] * counts[DIP_BENCH_AXIS_ISA] *
+                                          counts[DIP_BENCH_AXIS_THREADS]) {
         const int *at = plan->at[i];
         const int *base = plan->at[plan->base];
         if (at[DIP_BENCH_AXIS_GRID] + at[DIP_BENCH_AXIS_SIZE] == 0 &&
@@ -70,14 +70,15 @@ void dip_bench_plan_make(DipBenchPlan *plan, const DipSession *session,
 int dip_bench_fewest_threads(const DipBenchPlan *plan, int combination) {
     const int *threads = plan->options.threads;
     int fewest = 0;
-    for (int t = 1; t < plan->options.threads_count; t++) {
+    for (int t = 1; t < plan->options.counts[DIP_BENCH_AXIS_THREADS]; t++) {
         fewest = threads[t] < threads[fewest] ? t : fewest;
     }
     return combination - plan->at[combination][DIP_BENCH_AXIS_THREADS] + fewest;
 }
 
 int dip_bench_same_pictures(const DipBenchPlan *plan, int combination) {
-    return combination - combination % (plan->options.isa_count * plan->options.threads_count);
+    return combination - combination % (plan->options.counts[DIP_BENCH_AXIS_ISA] *
+                                        plan->options.counts[DIP_BENCH_AXIS_THREADS]);
 }
 
 static int divisor(int a, int b) {
@@ -110,7 +111,7 @@ DipBenchValues dip_bench_values(const DipBenchPlan *plan, int combination) {
     const DipBenchOptions *options = &plan->options;
     const int *at = plan->at[combination];
     DipBenchValues values = {
-        .triangles = options->grid_count ? options->grids[at[DIP_BENCH_AXIS_GRID]] : 0,
+        .triangles = options->grids[at[DIP_BENCH_AXIS_GRID]],
         .size = options->sizes[at[DIP_BENCH_AXIS_SIZE]],
         .scale = options->scales[at[DIP_BENCH_AXIS_SCALE]],
         .set = &options->sets[at[DIP_BENCH_AXIS_SET]],
@@ -136,13 +137,13 @@ void dip_bench_value_name(const DipBenchPlan *plan, int combination, DipBenchAxi
         snprintf(name, size_bytes, "%dx%d", v.size.width, v.size.height);
         break;
     case DIP_BENCH_AXIS_SCALE:
-        if (plan->counts[axis] > 1 || v.scale < 1.0) {
+        if (plan->options.counts[axis] > 1 || v.scale < 1.0) {
             snprintf(name, size_bytes, "scale %.10g (%dx%d)", v.scale, v.drawn.width,
                      v.drawn.height);
         }
         break;
     case DIP_BENCH_AXIS_SET:
-        snprintf(name, size_bytes, "%s", v.set->text);
+        snprintf(name, size_bytes, "%.90s", v.set->text);
         break;
     case DIP_BENCH_AXIS_ISA:
         snprintf(name, size_bytes, "%s", dip_isa_name(v.isa));
@@ -161,7 +162,7 @@ static void write_label(const DipBenchPlan *plan, int combination, bool varies,
         const size_t used = strlen(label);
         char value[DIP_BENCH_LABEL_SIZE];
         dip_bench_value_name(plan, combination, (DipBenchAxis)axis, value, sizeof value);
-        if ((plan->counts[axis] > 1) == varies && axis != (int)without && *value) {
+        if ((plan->options.counts[axis] > 1) == varies && axis != (int)without && *value) {
             snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
         }
     }

@@ -6,22 +6,11 @@
 #include "app/bench/options.h"
 #include "app/session/session.h"
 
-// The axes. From row to row of the printed table, the last axis changes fastest.
-typedef enum DipBenchAxis {
-    DIP_BENCH_AXIS_GRID,
-    DIP_BENCH_AXIS_SIZE,
-    DIP_BENCH_AXIS_SCALE,
-    DIP_BENCH_AXIS_SET,
-    DIP_BENCH_AXIS_ISA,
-    DIP_BENCH_AXIS_THREADS,
-    DIP_BENCH_AXIS_COUNT
-} DipBenchAxis;
-
 typedef struct DipBenchPlan {
-    // The options of the command line, with values for what it leaves open. Only the list of grids
-    // may be empty. Numbers of threads are at least 1.
+    // The options of the command line, with values for what it leaves open, so that no list is
+    // empty. If there are no grids, the list of grids has the one value 0, which stands for the
+    // session's scene. Numbers of threads are at least 1.
     DipBenchOptions options;
-    int counts[DIP_BENCH_AXIS_COUNT]; // Number of values per axis, at least 1.
     // [combination][axis]: the index of the combination's value on the axis.
     int at[DIP_BENCH_MAX_COMBINATIONS][DIP_BENCH_AXIS_COUNT];
     int count; // Number of combinations.
@@ -48,7 +37,7 @@ typedef struct DipBenchValues {
     DipOptionSize size;
     double scale;
     DipOptionSize drawn; // The size at which the picture is drawn, before it is enlarged to `size`.
-    const DipBenchSet *set;
+    const DipOptionSet *set;
     DipIsa isa;
     int threads;
 } DipBenchValues;

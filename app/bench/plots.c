@@ -73,7 +73,7 @@ static void name_series(const DipBenchPlan *plan, const struct Kind *kind, Serie
         const DipQuality standard = dip_quality_default();
         rest.step[DIP_SETTING_AA] = standard.step[DIP_SETTING_AA];
         dip_quality_format_changes(&rest, settings, sizeof settings);
-        if (plan->count > plan->counts[DIP_BENCH_AXIS_SET]) {
+        if (plan->count > plan->options.counts[DIP_BENCH_AXIS_SET]) {
             snprintf(others, sizeof others, ", %.120s", series->name);
         }
         snprintf(series->name, sizeof series->name, "%s%s",

@@ -13,7 +13,7 @@
 static void print_scene(const DipBenchPlan *plan, const DipSession *session, FILE *out) {
     const DipSessionOptions *options = session->options;
     const char *view = plan->options.grid_out_of_view ? ", out of view" : "";
-    if (plan->options.grid_count) {
+    if (plan->options.grids[0]) {
         fprintf(out, "scene    grid%s\n", view);
         return;
     }
@@ -76,7 +76,7 @@ static void print_estimate(const DipEstimate *estimate, const char *unknown, FIL
 static void print_comparison(const DipBenchResult *result, int combination, FILE *out) {
     print_estimate(&result->ratios[combination], combination == result->plan->base ? "base" : "-",
                    out);
-    if (result->plan->options.threads_count > 1) {
+    if (result->plan->options.counts[DIP_BENCH_AXIS_THREADS] > 1) {
         print_estimate(&result->speed_ups[combination], "-", out);
     }
 }
@@ -93,7 +93,7 @@ void dip_bench_print_times(const DipBenchResult *result, FILE *out) {
         fprintf(out, " %9s", dip_bench_stage_names[stage]);
     }
     fprintf(out, " %8s %17s", "ratio", "95 % interval");
-    if (plan->options.threads_count > 1) {
+    if (plan->options.counts[DIP_BENCH_AXIS_THREADS] > 1) {
         fprintf(out, " %8s %17s", "speed-up", "95 % interval");
     }
     fprintf(out, "\n");
@@ -121,11 +121,6 @@ void dip_bench_print_times(const DipBenchResult *result, FILE *out) {
 enum { WORK_COLUMNS = 6 };
 
 static void print_work_block(const DipBenchResult *result, const int *shown, int count, FILE *out) {
-    static const char *const names[DIP_COUNTER_COUNT] = {
-#define COUNTER_NAME(name, text) #name,
-        DIP_COUNTER_LIST(COUNTER_NAME)
-#undef COUNTER_NAME
-    };
     double means[WORK_COLUMNS][DIP_COUNTER_COUNT];
     fprintf(out, "\n%-22s", "row (means per frame)");
     for (int i = 0; i < count; i++) {
@@ -133,7 +128,7 @@ static void print_work_block(const DipBenchResult *result, const int *shown, int
         dip_bench_result_work(result, shown[i], means[i]);
     }
     for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
-        fprintf(out, "\n%-22s", names[c]);
+        fprintf(out, "\n%-22s", dip_counter_names[c]);
         for (int i = 0; i < count; i++) {
             fprintf(out, " %12.0f", means[i][c]);
         }
@@ -173,22 +168,6 @@ static int different_pictures(const DipBenchResult *here, const DipBenchResult *
     return different;
 }
 
-// Returns the sum over the frames of each frame's fastest round. The fastest round has the least
-// noise, because noise only ever adds time.
-static double fastest_ms(const DipBenchResult *result, int combination) {
-    const DipBenchOptions *options = &result->plan->options;
-    const double *ms = dip_bench_result_ms(result, combination, DIP_BENCH_STAGE_total);
-    double sum = 0.0;
-    for (int frame = 0; frame < options->frames; frame++) {
-        double least = ms[frame];
-        for (int round = 1; round < options->measure.rounds; round++) {
-            least = fmin(least, ms[round * options->frames + frame]);
-        }
-        sum += least;
-    }
-    return sum;
-}
-
 static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *other,
                             int combination, FILE *out) {
     double medians[2][DIP_BENCH_STAGE_COUNT];
@@ -200,7 +179,9 @@ static void print_ratio_row(const DipBenchResult *here, const DipBenchResult *ot
     fprintf(out, " %8.3f %8.3f", medians[1][DIP_BENCH_STAGE_total],
             medians[0][DIP_BENCH_STAGE_total]);
     print_estimate(&other->ratios[combination], "-", out);
-    fprintf(out, " %7.3f ", fastest_ms(other, combination) / fastest_ms(here, combination));
+    fprintf(out, " %7.3f ",
+            dip_bench_result_fastest_ms(other, combination, DIP_BENCH_STAGE_total) /
+                dip_bench_result_fastest_ms(here, combination, DIP_BENCH_STAGE_total));
     for (int stage = 0; stage < DIP_BENCH_STAGE_total; stage++) {
         if (medians[0][stage] > 0.0) {
             fprintf(out, " %8.3f", medians[1][stage] / medians[0][stage]);
@@ -248,9 +229,9 @@ static void print_csv_heading(bool programs, FILE *out) {
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         fprintf(out, ",%s_ms", dip_bench_stage_names[stage]);
     }
-#define PRINT_NAME(name, text) fprintf(out, ",%s_count", #name);
-    DIP_COUNTER_LIST(PRINT_NAME)
-#undef PRINT_NAME
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        fprintf(out, ",%s_count", dip_counter_names[c]);
+    }
     fprintf(out, "\n");
 }
 

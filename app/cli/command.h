@@ -10,7 +10,9 @@ typedef struct DipSessionDef DipSessionDef; // app/session/session.h
 
 // Options that every command has. Every command's struct of options begins with this struct.
 typedef struct DipProgramOptions {
-    const char *log; // File to which warnings, errors and notes are also written, or NULL.
+    int argc;          // Number of elements of argv.
+    char *const *argv; // The whole command line. Borrowed.
+    const char *log;   // File to which warnings, errors and notes are also written, or NULL.
     bool help;
     bool version;
 } DipProgramOptions;
@@ -44,9 +46,10 @@ typedef struct DipCommand {
     DipOperands operands;
     size_t options_size; // Bytes of the command's struct of options.
 
-    // Fills in the default of every option. The struct is zero before the call. argv is the whole
-    // command line. The function may be NULL if zero is the default of every option.
-    void (*set_defaults)(void *options, int argc, char *const *argv);
+    // Fills in the default of every option. Before the call, the struct is zero except for the
+    // command line in its DipProgramOptions. The function may be NULL if zero is the default of
+    // every option.
+    void (*set_defaults)(void *options);
 
     // Returns false and fills *err if options contradict each other or a necessary option is
     // missing. The function may be NULL if any options may be combined.

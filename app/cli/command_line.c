@@ -161,12 +161,14 @@ bool dip_command_line_parse(const DipCommandList *list, int argc, char *const *a
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "out of memory");
     }
     DipProgramOptions *program = line->options;
+    program->argc = argc;
+    program->argv = argv;
     if (line->group) {
         program->help = true;
         return true;
     }
     if (line->command->set_defaults) {
-        line->command->set_defaults(line->options, argc, argv);
+        line->command->set_defaults(line->options);
     }
     if (!parse_arguments(argc, argv, 1 + used, line, err)) {
         return false;

@@ -29,7 +29,7 @@ static const DipOptionRow start_rows[] = {
 };
 
 static const DipOptionRow serve_rows[] = {
-    {"--serve", NULL, DIP_OPTION_FLAG, offsetof(DipServeOptions, serve),
+    {"--serve", NULL, DIP_OPTION_FLAG,
      .text = "Draw the frames that standard input asks for. This option is only for --starts of "
              "cost and --vs of bench, which start programs with it."},
 };

@@ -14,16 +14,9 @@ typedef struct DipMeasureOptions {
     int seed;
 } DipMeasureOptions;
 
-// Options of a command that can start other programs to draw frames for this command.
-typedef struct DipServeOptions {
-    bool serve;        // True if another process has started this one to draw for it.
-    int argc;          // Number of elements of argv.
-    char *const *argv; // The whole command line. Borrowed.
-} DipServeOptions;
-
 extern const DipOptionTable dip_measure_option_table; // --rounds --seed; fills DipMeasureOptions.
 extern const DipOptionTable dip_starts_option_table;  // --starts; fills DipMeasureOptions.
-extern const DipOptionTable dip_serve_option_table;   // --serve; fills DipServeOptions.
+extern const DipOptionTable dip_serve_option_table;   // --serve; fills a bool.
 extern const DipOptionTable dip_json_option_table;    // --json; fills a `const char *`.
 
 // Returns the seed that was given, or a seed from the clock if none was given.

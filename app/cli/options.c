@@ -4,7 +4,6 @@
 #include "renderer/base/assert.h"
 #include "renderer/base/nearest.h"
 #include "renderer/base/number.h"
-#include "renderer/scene/quality.h"
 #include "renderer/scene/renderer.h"
 
 #include <stdio.h>
@@ -82,6 +81,11 @@ static bool read_size(const DipOptionRow *row, const char *value, DipOptionSize 
     return true;
 }
 
+static bool read_set(const char *value, DipOptionSet *set, DipError *err) {
+    snprintf(set->text, sizeof set->text, "%s", value);
+    return dip_quality_parse(value, &set->quality, err);
+}
+
 static bool read_choice(const DipOptionRow *row, const char *value, int *choice, DipError *err) {
     for (int i = 0; i < (int)row->most; i++) {
         if (strcmp(value, row->names[i]) == 0) {
@@ -104,6 +108,7 @@ static bool read_item(const DipOptionRow *row, const char *value, void *fields, 
     item.separator = '\0';
     item.field += (size_t)*count * (row->item == DIP_OPTION_NUMBER ? sizeof(double)
                                     : row->item == DIP_OPTION_SIZE ? sizeof(DipOptionSize)
+                                    : row->item == DIP_OPTION_SET  ? sizeof(DipOptionSet)
                                                                    : sizeof(int));
     if (!dip_option_store(&item, value, fields, err)) {
         return false;
@@ -169,6 +174,8 @@ bool dip_option_store(const DipOptionRow *row, const char *value, void *fields, 
         return read_size(row, value, field, err);
     case DIP_OPTION_SETTINGS:
         return dip_quality_parse(value, field, err);
+    case DIP_OPTION_SET:
+        return read_set(value, field, err);
     case DIP_OPTION_CHOICE:
         return read_choice(row, value, field, err);
     case DIP_OPTION_LIST:

@@ -4,6 +4,7 @@
 #define DIP_APP_CLI_OPTIONS_H
 
 #include "renderer/base/error.h"
+#include "renderer/scene/quality.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,6 +18,7 @@ typedef enum DipOptionKind {
     DIP_OPTION_NUMBER,   // double in least..most
     DIP_OPTION_SIZE,     // DipOptionSize
     DIP_OPTION_SETTINGS, // DipQuality
+    DIP_OPTION_SET,      // DipOptionSet
     DIP_OPTION_CHOICE,   // int; the index in `names` of the name that was typed
     DIP_OPTION_LIST,     // array of at most `room` values of kind `item`; or any type, if `read`
                          // stores each value
@@ -27,6 +29,12 @@ typedef struct DipOptionSize {
     int width; // Pixels.
     int height;
 } DipOptionSize;
+
+// Settings, and the text that gives them: as the user typed it, or as the program chose it.
+typedef struct DipOptionSet {
+    char text[DIP_SETTINGS_BYTES];
+    DipQuality quality;
+} DipOptionSet;
 
 typedef struct DipOptionRow DipOptionRow;
 
@@ -44,9 +52,10 @@ struct DipOptionRow {
     size_t given; // Offset of a bool that becomes true if the option is given; 0 if there is none.
     size_t count; // TEXTS and LIST: offset of an int that holds the number of values.
     int room;     // TEXTS and LIST: greatest number of values.
-    DipOptionKind item; // LIST without `read`: the kind of each value, INTEGER, NUMBER or SIZE.
-    double least;       // INTEGER and NUMBER: the least value.
-    double most;        // INTEGER and NUMBER: the greatest value. CHOICE: number of names.
+    DipOptionKind
+        item;     // LIST without `read`: the kind of each value: INTEGER, NUMBER, SIZE or SET.
+    double least; // INTEGER and NUMBER: the least value.
+    double most;  // INTEGER and NUMBER: the greatest value. CHOICE: number of names.
     const char *const *names; // CHOICE: the names of the values.
     // What a value must be. The error message is "'VALUE' is not " and this text. NULL if the kind
     // of the option decides the message.

@@ -1,7 +1,9 @@
 // Shows on standard error how much of its work a long command has done. Lets Ctrl-C end the command
-// once the current frame or measurement is done.
+// once the current frame or measurement is done. Times frames in a command in this way.
 #ifndef DIP_APP_CLI_PROGRESS_H
 #define DIP_APP_CLI_PROGRESS_H
+
+#include "app/measure/timing/driver.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -47,5 +49,13 @@ void dip_interrupt_watch(void);
 
 // Returns whether one of these signals has come.
 bool dip_interrupted(void);
+
+// Steps the driver until it is done. Shows on standard error how many frames have been drawn. If
+// the driver then looks for disturbed frames to draw again, also shows in how many rounds it has
+// looked. `things` is the word for the frames in the line that shows the progress, such as
+// "frames". If the driver fails, fails with the driver's error. After Ctrl-C or SIGTERM, fails with
+// DIP_ERROR_RUNTIME, the key `command` and the message `interrupted`.
+bool dip_drive(DipDriver *driver, const char *things, const char *command, const char *interrupted,
+               DipError *err);
 
 #endif

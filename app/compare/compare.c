@@ -242,9 +242,7 @@ static bool run_compare(DipSession *session, const void *arguments, DipError *er
     return done;
 }
 
-static void set_defaults(void *options, int argc, char *const *argv) {
-    (void)argc;
-    (void)argv;
+static void set_defaults(void *options) {
     CompareOptions *compare = options;
     compare->sharpness = 0.5;
     compare->pixels_per_degree = DIP_FLIP_PIXELS_PER_DEGREE;

@@ -50,7 +50,7 @@ static void judge_predictions(DipCostReport *report, int first_row) {
     for (int i = 0; i < predicted->count; i++) {
         const DipCostPrediction *p = &predicted->list[i];
         if (p->row >= first_row) {
-            const double flip = dip_cost_row_metrics(report, p->row, 0).flip;
+            const double flip = dip_cost_row_metrics(report, p->row).flip;
             times[time_count++] = fabs(p->ms / dip_cost_ms(report, p->row) - 1.0);
             if (flip > 0.0) { // A row that equals the truth has no relative error.
                 errors[error_count++] = fabs(p->flip / flip - 1.0);

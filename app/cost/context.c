@@ -90,23 +90,18 @@ static bool cut_history(const DipCostContext *cost, const DipQuality *quality) {
     return dip_quality_has_history(quality) && !cost->gallery;
 }
 
-static bool draw_on_path(DipCostContext *cost, const DipQuality *quality, int path, int index,
-                         DipFrame *frame, DipError *err) {
-    const int64_t step_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
-                            dip_cost_frame_count(cost->report);
-    return draw(cost, quality, path, step_ns * index, index, frame, err);
-}
-
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err) {
     DipFrame before;
     return !cut_history(cost, quality) || index == 0 ||
-           draw_on_path(cost, quality, path, index - 1, &before, err);
+           dip_cost_draw_timed(cost, quality, path, index - 1, &before, err);
 }
 
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err) {
-    return draw_on_path(cost, quality, path, index, frame, err);
+    const int64_t step_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
+                            dip_cost_frame_count(cost->report);
+    return draw(cost, quality, path, step_ns * index, index, frame, err);
 }
 
 // Draws frame `index` of a burst. If the settings have a history, draws before frame 0 the

@@ -8,7 +8,7 @@
 #include "app/cost/journal.h"
 #include "app/cost/plan.h"
 #include "app/report/page/report_pictures.h"
-#include "app/cli/measure_options.h"
+#include "app/cli/command.h"
 #include "app/gallery/gallery.h"
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
@@ -42,9 +42,9 @@ typedef struct DipCostContext {
     // make the copies again whenever gi changes, and rows would be timed with their data at other
     // addresses.
     DipPainter *renderers[2];
-    // The command line with which the program starts itself to time frames in other processes
+    // Holds the command line with which the program starts itself to time frames in other processes
     // (--starts). If it is NULL, all frames are timed in this process.
-    const DipServeOptions *start;
+    const DipProgramOptions *start;
     bool has_warned; // True if the user was told that the machine is busy (look.c).
     DipCostForecast forecast;
     double baseline_ms; // Mean time of a frame of the baseline, as dip_cost_look_at_machine

@@ -96,7 +96,7 @@ static bool run(DipSession *session, const DipCostArguments *arguments, DipCostR
     }
     cost.journal = journal;
     cost.cache = cache;
-    cost.start = &arguments->serve;
+    cost.start = &arguments->program;
     bool done = measure(&cost, err);
     if (done) {
         set_date(report);
@@ -137,12 +137,12 @@ static bool run_command(DipSession *session, const void *options_given, DipError
     options.starts = arguments->measure.starts;
     options.has_seed = arguments->measure.has_seed;
     options.seed = dip_measure_seed(&arguments->measure);
-    if (!arguments->serve.serve) {
+    if (!arguments->serve) {
         dip_interrupt_watch(); // A process that serves is ended by the one that started it.
     }
-    const bool done = dip_cost_plan(&report, session, &options, err) &&
-                      (arguments->serve.serve ? serve(session, &report, err)
-                                              : run(session, arguments, &report, err));
+    const bool done =
+        dip_cost_plan(&report, session, &options, err) &&
+        (arguments->serve ? serve(session, &report, err) : run(session, arguments, &report, err));
     dip_cost_report_free(&report);
     return done;
 }

@@ -2,7 +2,6 @@
 // its rounds, and warns once if they do.
 #include "app/cost/steps.h"
 
-#include "app/cli/drive.h"
 #include "app/cli/log.h"
 #include "app/cli/progress.h"
 #include "app/report/verdict.h"

@@ -236,9 +236,8 @@ const DipOptionParts dip_cost_option_parts = {cost_parts, DIP_ARRAY_COUNT(cost_p
 
 // --- defaults and checks -------------------------------------------------------------------------
 
-void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
+void dip_cost_options_default(void *arguments) {
     DipCostArguments *all = arguments;
-    all->serve = (DipServeOptions){.argc = argc, .argv = argv};
     all->measure = (DipMeasureOptions){.rounds = 4, .starts = 4};
     all->cost = (DipCostOptions){
         .baseline = dip_quality_default(),
@@ -250,8 +249,8 @@ void dip_cost_options_default(void *arguments, int argc, char *const *argv) {
     };
     // --quick sets defaults, so this function looks for it before the options are read. Otherwise
     // it would override the options that stand before it on the command line.
-    for (int i = 0; i < argc; i++) {
-        if (strcmp(argv[i], "--quick") == 0) {
+    for (int i = 0; i < all->program.argc; i++) {
+        if (strcmp(all->program.argv[i], "--quick") == 0) {
             all->measure = (DipMeasureOptions){.rounds = 3, .starts = 2};
             all->cost.predict = true;
             all->cost.places = 2;

@@ -17,8 +17,7 @@ typedef struct DipCostArguments {
     bool quick;          // --quick: other options default to values for a fast, less exact report.
     DipCostOptions cost; // Its rounds, starts and seed are not set here: `measure` has them.
     DipMeasureOptions measure;
-    DipServeOptions serve; // Says whether another process has started this one to draw frames for
-                           // it, and holds the command line.
+    bool serve; // True if another process has started this one to draw frames for it.
 } DipCostArguments;
 
 extern const DipOptionParts dip_cost_option_parts;
@@ -34,7 +33,7 @@ void dip_cost_default_budgets(DipCostOptions *options);
 // Fails if no folder was given with --out.
 bool dip_cost_check_out(const char *out, DipError *err);
 
-void dip_cost_options_default(void *arguments, int argc, char *const *argv);
+void dip_cost_options_default(void *arguments);
 bool dip_cost_options_check(const void *arguments, DipError *err);
 
 #endif

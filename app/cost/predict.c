@@ -109,7 +109,7 @@ static bool measure_training(DipCostContext *cost, DipError *err) {
         DipCostPrediction *p = &predicted->list[chosen[i]];
         p->ms = dip_cost_ms(report, p->row);
         p->p95_ms = report->rows[p->row].time.p95_ms.value;
-        p->flip = dip_cost_row_metrics(report, p->row, 0).flip;
+        p->flip = dip_cost_row_metrics(report, p->row).flip;
     }
     return true;
 }

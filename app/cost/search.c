@@ -111,7 +111,7 @@ static bool is_measured(const Search *search, const int *distances) {
 // Predicts a combination that is not measured yet, and keeps it if it may be worth measuring.
 static void predict(const Search *search, Best *best, const DipWorkSum *sum,
                     const DipQuality *quality, const int *distances) {
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     if (is_measured(search, distances)) {
         return;
     }

@@ -5,7 +5,6 @@
 // To time rows, unless --starts is 1, the program starts itself several times with --serve, one
 // process after another, and asks each for the frames to time. Times differ from process to
 // process, since chance decides where a process has its memory and which cores its threads get.
-#include "app/cli/drive.h"
 #include "app/cli/progress.h"
 #include "app/cost/steps.h"
 #include "app/measure/timing/child.h"

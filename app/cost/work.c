@@ -215,7 +215,7 @@ bool dip_cost_count_combinations(DipCostContext *cost, DipError *err) {
 
 void dip_cost_scale_counters(DipCostReport *report) {
     DipCostPredictions *predicted = &report->predicted;
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         double few = 0.0, all = 0.0;
         for (int i = 0; i < predicted->count; i++) {
             const DipCostPrediction *p = &predicted->list[i];
@@ -236,14 +236,14 @@ void dip_cost_scale_counters(DipCostReport *report) {
 // --- the sample ----------------------------------------------------------------------------------
 
 // Estimates the time of a frame in nanoseconds, from its main counters and usual prices of work.
-static double usual_ns(const double counters[DIP_COST_COUNTER_COUNT]) {
+static double usual_ns(const double counters[DIP_COUNTER_COUNT]) {
     static const struct {
         int counter;
         double ns;
     } prices[] = {
-        {DIP_COST_COUNTER_fragments_shaded, 12.0}, {DIP_COST_COUNTER_texture_probes, 6.0},
-        {DIP_COST_COUNTER_samples_shown, 1.0},     {DIP_COST_COUNTER_pixels_filtered, 10.0},
-        {DIP_COST_COUNTER_shadow_texels, 1.0},     {DIP_COST_COUNTER_triangles_in, 30.0},
+        {DIP_COUNTER_fragments_shaded, 12.0}, {DIP_COUNTER_texture_probes, 6.0},
+        {DIP_COUNTER_samples_shown, 1.0},     {DIP_COUNTER_pixels_filtered, 10.0},
+        {DIP_COUNTER_shadow_texels, 1.0},     {DIP_COUNTER_triangles_in, 30.0},
     };
     double ns = 1.0;
     for (size_t i = 0; i < sizeof prices / sizeof *prices; i++) {

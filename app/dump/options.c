@@ -108,9 +108,7 @@ static const DipOptionPart parts[] = {
 };
 const DipOptionParts dip_dump_option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-void dip_dump_options_default(void *options, int argc, char *const *argv) {
-    (void)argc;
-    (void)argv;
+void dip_dump_options_default(void *options) {
     DipDumpOptions *dump = options;
     dump->frames = (DipFrameRange){0, 1, 1};
     dump->rate = (DipFrameRate){30, 1};

@@ -38,7 +38,7 @@ extern const DipOptionParts dip_dump_option_parts;
 // Returns the time of the scene that frame `index` shows, in nanoseconds, rounded down.
 int64_t dip_dump_time_ns(const DipDumpOptions *options, int index);
 
-void dip_dump_options_default(void *options, int argc, char *const *argv);
+void dip_dump_options_default(void *options);
 bool dip_dump_options_check(const void *options, DipError *err);
 
 #endif

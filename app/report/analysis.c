@@ -24,7 +24,7 @@ static void add_context(const DipCostReport *report, const DipQuality *neither,
             return;
         }
         ms[i] = dip_cost_ms(report, row);
-        flip[i] = dip_cost_row_metrics(report, row, 0).flip;
+        flip[i] = dip_cost_row_metrics(report, row).flip;
     }
     to->contexts++;
     to->flip += flip[BOTH] - flip[A] - flip[B] + flip[NEITHER];

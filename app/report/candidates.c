@@ -31,7 +31,7 @@ DipCandidate dip_candidate_of_row(const DipCostReport *report, int row, DipTimeK
         .time = time_of_kind(time, kind, report->rounds),
         .common_error = time->level_error,
         .loss = dip_cost_ranking_flip(report, row),
-        .flip = dip_cost_row_metrics(report, row, 0).flip,
+        .flip = dip_cost_row_metrics(report, row).flip,
         .row = row,
     };
 }

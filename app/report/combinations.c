@@ -112,7 +112,7 @@ double dip_cost_pixels_filtered(const DipQuality *quality) {
 // Where the base's counter is 0, there is no ratio, and the counter becomes the combination's own
 // counter if this is greater.
 static void apply(const double *of, const double *base, double *counters) {
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] = base[c] > 0.0 ? counters[c] * of[c] / base[c] : fmax(counters[c], of[c]);
     }
 }
@@ -122,16 +122,16 @@ static void apply(const double *of, const double *base, double *counters) {
 // pictures of known sizes, so their pixels need not be composed.
 static double pixels_of_frame(const double *of, const DipQuality *quality) {
     const double filtered = dip_cost_pixels_filtered(quality);
-    return filtered > 0.0 ? of[DIP_COST_COUNTER_pixels_filtered] / filtered : 0.0;
+    return filtered > 0.0 ? of[DIP_COUNTER_pixels_filtered] / filtered : 0.0;
 }
 
 // Adds the work of shadows. The shadow map is drawn by itself, so its work does not depend on the
 // other settings. The fragments that read it are a share of all fragments.
 static void add_shadows(const double *of, const double *base, double *counters) {
-    const int all = DIP_COST_COUNTER_fragments_shaded;
-    const int reading = DIP_COST_COUNTER_fragments_shadowed;
+    const int all = DIP_COUNTER_fragments_shaded;
+    const int reading = DIP_COUNTER_fragments_shadowed;
     const double growth = base[all] > 0.0 ? counters[all] / base[all] : 1.0;
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] = c == reading ? of[c] * growth : counters[c] + (of[c] - base[c]);
     }
 }
@@ -176,10 +176,10 @@ static void join_corner(const DipWorkSum *sum, const DipQuality *quality, double
     if (!corner || !of_aa || !of_scale) {
         return;
     }
-    double composed[DIP_COST_COUNTER_COUNT];
+    double composed[DIP_COUNTER_COUNT];
     memcpy(composed, of_aa, sizeof composed);
     apply(of_scale, sum->of_base, composed);
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] *= composed[c] > 0.0 ? corner[c] / composed[c] : 1.0;
     }
 }
@@ -200,10 +200,10 @@ void dip_work_add(DipWorkSum *sum, const DipQuality *part, const double *of_part
 }
 
 void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
-                  double counters[DIP_COST_COUNTER_COUNT]) {
-    memcpy(counters, sum->counters, DIP_COST_COUNTER_COUNT * sizeof *counters);
+                  double counters[DIP_COUNTER_COUNT]) {
+    memcpy(counters, sum->counters, DIP_COUNTER_COUNT * sizeof *counters);
     join_corner(sum, quality, counters);
-    counters[DIP_COST_COUNTER_pixels_filtered] = sum->pixels * dip_cost_pixels_filtered(quality);
+    counters[DIP_COUNTER_pixels_filtered] = sum->pixels * dip_cost_pixels_filtered(quality);
     if (sum->of_shadows) {
         add_shadows(sum->of_shadows, sum->of_base, counters);
     }
@@ -234,7 +234,7 @@ static void find_corners(DipWorkFind *find, const void *context, const DipQualit
 }
 
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
-                      const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]) {
+                      const DipQuality *quality, double counters[DIP_COUNTER_COUNT]) {
     const unsigned shadows = 1u << DIP_SETTING_SHADOWS;
     const double *of_base = find(context, base);
     if (!of_base || dip_work_count_groups(base, quality) < 0) {

@@ -53,7 +53,7 @@ enum { DIP_WORK_GROUPS = 9 };
 // of samples.
 unsigned dip_work_group(int group);
 
-// Returns the counters [DIP_COST_COUNTER_COUNT] of a combination, or NULL if it was not counted.
+// Returns the counters [DIP_COUNTER_COUNT] of a combination, or NULL if it was not counted.
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
@@ -79,7 +79,7 @@ void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
 // is needed was not counted, or if the combination differs from the base in a setting that belongs
 // to no group.
 bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *base,
-                      const DipQuality *quality, double counters[DIP_COST_COUNTER_COUNT]);
+                      const DipQuality *quality, double counters[DIP_COUNTER_COUNT]);
 
 // Composes the counters of one combination after another that share some parts. A part is the base
 // with the settings of one or more groups taken from the combination; each group belongs to one
@@ -90,7 +90,7 @@ typedef struct DipWorkSum {
     const double *of_base;
     const double *of_shadows;      // Counters of the base with the combination's shadows, or NULL.
     const DipWorkCorners *corners; // Borrowed; NULL if there are none.
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     double pixels; // Pixels of a frame; 0 if neither the base nor a part filters them.
 } DipWorkSum;
 
@@ -99,7 +99,7 @@ void dip_work_add(DipWorkSum *sum, const DipQuality *part, const double *of_part
 
 // Writes the counters of the combination `quality`, whose parts have all been added.
 void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
-                  double counters[DIP_COST_COUNTER_COUNT]);
+                  double counters[DIP_COUNTER_COUNT]);
 
 // Returns the number of groups in which a combination differs from the base, or -1 if it differs in
 // a setting that belongs to no group.

@@ -131,8 +131,7 @@ DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *ro
     return solve(&equations);
 }
 
-double dip_cost_model_value(const DipCostModel *model,
-                            const double counters[DIP_COST_COUNTER_COUNT],
+double dip_cost_model_value(const DipCostModel *model, const double counters[DIP_COUNTER_COUNT],
                             const DipQuality *quality) {
     return dip_cost_sum_terms(0, DIP_COST_STAGE_COUNT, model->prices, counters, quality);
 }

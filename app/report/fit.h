@@ -24,13 +24,13 @@ const char *dip_cost_term_name(int stage, int term);
 // Computes the amounts of a stage's terms. The amount of the first term is 1, except in the
 // geometry stage of frames that pose vertices, where it is 0 (terms.c says why). `counters` are
 // those of a frame that was drawn with these settings, or their means over several frames.
-void dip_cost_terms(int stage, const double counters[DIP_COST_COUNTER_COUNT],
-                    const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]);
+void dip_cost_terms(int stage, const double counters[DIP_COUNTER_COUNT], const DipQuality *quality,
+                    double amounts[DIP_COST_MAX_TERMS]);
 
 // Returns the sum of amounts times prices of all terms of the stages `first` to `end` - 1.
 // `prices` is indexed [stage][term].
 double dip_cost_sum_terms(int first, int end, const double (*prices)[DIP_COST_MAX_TERMS],
-                          const double counters[DIP_COST_COUNTER_COUNT], const DipQuality *quality);
+                          const double counters[DIP_COUNTER_COUNT], const DipQuality *quality);
 
 // --- models --------------------------------------------------------------------------------------
 
@@ -53,8 +53,7 @@ DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *ro
                                       const DipCostElsewhere *there, int there_count);
 
 // Returns the mean time of a frame with these counters and settings, in milliseconds.
-double dip_cost_model_value(const DipCostModel *model,
-                            const double counters[DIP_COST_COUNTER_COUNT],
+double dip_cost_model_value(const DipCostModel *model, const double counters[DIP_COUNTER_COUNT],
                             const DipQuality *quality);
 
 // Summarises misses; a miss is |predicted / measured - 1|. Sorts the array `misses`.

@@ -116,7 +116,7 @@ bool dip_flip_model_fit(const DipCostReport *report, const int *rows, int count,
     }
     for (int i = 0; i < count; i++) {
         model->known[i] = report->rows[rows[i]].quality;
-        logs[i] = log(fmax(dip_cost_row_metrics(report, rows[i], 0).flip, least_flip));
+        logs[i] = log(fmax(dip_cost_row_metrics(report, rows[i]).flip, least_flip));
         model->log_mean += logs[i] / count;
     }
     for (int i = 0; i < count; i++) {

@@ -27,30 +27,29 @@ typedef struct Theory {
 #define TEXTURES "colour textures that are smaller than their largest mip level"
 
 static const Theory theories[] = {
-    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COST_COUNTER_samples_shown, FEW_VIEWPOINTS, "edges"},
-    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COST_COUNTER_clip_sample_groups, FEW_VIEWPOINTS,
+    {DIP_SETTING_AA, FALLS, false, RISES, DIP_COUNTER_samples_shown, FEW_VIEWPOINTS, "edges"},
+    {DIP_SETTING_AAA, FALLS, false, RISES, DIP_COUNTER_clip_sample_groups, FEW_VIEWPOINTS,
      "alpha-clipped surfaces"},
     {DIP_SETTING_TAA, FALLS, true, FREE, 0,
      "Where the camera moves far between two frames, their mean is blurred", "edges"},
-    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COST_COUNTER_texture_probes, FEW_VIEWPOINTS,
+    {DIP_SETTING_AF, FALLS, false, RISES, DIP_COUNTER_texture_probes, FEW_VIEWPOINTS,
      "textures that are seen at an angle"},
     {DIP_SETTING_AAF, FALLS, false, FREE, 0,
      "Surfaces that tilt away at nearly a multiple of 45 degrees on the screen get as many probes "
      "without aaf as with it",
      "textures that are seen at an angle"},
-    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COST_COUNTER_texels_fetched, FEW_VIEWPOINTS,
-     TEXTURES},
-    {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COST_COUNTER_texels_fetched,
+    {DIP_SETTING_OPT, RISES, false, FALLS, DIP_COUNTER_texels_fetched, FEW_VIEWPOINTS, TEXTURES},
+    {DIP_SETTING_MIPLOD, FALLS, false, RISES, DIP_COUNTER_texels_fetched,
      "With a bias, most reads take as many texels as without it, but from smaller mip levels; on a "
      "magnified surface, a read may even take two levels instead of one",
      TEXTURES},
-    {DIP_SETTING_SCALE, FALLS, false, RISES, DIP_COST_COUNTER_target_bytes, FEW_VIEWPOINTS,
+    {DIP_SETTING_SCALE, FALLS, false, RISES, DIP_COUNTER_target_bytes, FEW_VIEWPOINTS,
      "edges and textures"},
-    {DIP_SETTING_SHADOWS, FALLS, false, RISES, DIP_COST_COUNTER_shadow_texels,
+    {DIP_SETTING_SHADOWS, FALLS, false, RISES, DIP_COUNTER_shadow_texels,
      "Where the texels of the shadow map are smaller than pixels, more of them make edges jagged "
      "instead of truer",
      "surfaces that a directional light of the scene lights"},
-    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COST_COUNTER_geometry_bytes, FEW_VIEWPOINTS, NULL},
+    {DIP_SETTING_GI, STAYS, false, FALLS, DIP_COUNTER_geometry_bytes, FEW_VIEWPOINTS, NULL},
 };
 
 static const char *const trend_words[] = {
@@ -140,7 +139,7 @@ bool dip_cost_order_text(const DipCostReport *report, const DipCostSweep *sweep,
         counted ? first_departure(report, sweep, theory, true, &judged) : sweep->row_count;
     const char *error = theory->of_two_frames ? "the error of the mean of two frames" : "FLIP";
     char work[DIP_COST_TEXT], step[DIP_COST_TEXT];
-    snprintf(work, sizeof work, "the counter %s", dip_cost_counter_names[theory->counter]);
+    snprintf(work, sizeof work, "the counter %s", dip_counter_names[theory->counter]);
     const bool error_departs = by_error < sweep->row_count;
     if (!error_departs && by_work == sweep->row_count) {
         snprintf(text, size_bytes, "As theory says: %s %s from step to step%s%s%s%s.", error,

@@ -14,12 +14,6 @@ const char *const dip_cost_picture_kind_names[3] = {
     [DIP_COST_PICTURES_NONE] = "none",
 };
 
-const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT] = {
-#define COUNTER_NAME(name, text) #name,
-    DIP_COUNTER_LIST(COUNTER_NAME)
-#undef COUNTER_NAME
-};
-
 const char *const dip_cost_stage_names[DIP_COST_STAGE_COUNT] = {
 #define STAGE_NAME(name, text) #name,
     DIP_STAGE_LIST(STAGE_NAME)
@@ -181,10 +175,10 @@ bool dip_cost_is_judged(const DipCostReport *report, int row) {
     return viewpoints > 0;
 }
 
-DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region) {
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    return dip_metrics_of(&sums, region);
+    return dip_metrics_of(&sums, 0);
 }
 
 DipCostTail dip_cost_row_tail(const DipCostReport *report, int row) {
@@ -234,6 +228,6 @@ double dip_cost_floor_flip(const DipCostReport *report, int path) {
 }
 
 double dip_cost_ranking_flip(const DipCostReport *report, int row) {
-    return fmax(dip_cost_row_metrics(report, row, 0).flip,
+    return fmax(dip_cost_row_metrics(report, row).flip,
                 dip_cost_floor_flip(report, report->rows[row].path));
 }

@@ -11,22 +11,13 @@
 #include "app/measure/metrics/metrics.h"
 #include "app/measure/stats/rounds.h"
 #include "app/measure/timing/driver.h"
+#include "app/measure/timing/sample.h"
 #include "app/report/choice.h"
 #include "app/report/words.h"
 #include "renderer/scene/frame.h"
 #include "renderer/scene/quality.h"
 
 #include <stdbool.h>
-
-// Indices of the work counters of a frame, in the order of DIP_COUNTER_LIST.
-enum {
-#define DIP_COST_COUNTER(name, text) DIP_COST_COUNTER_##name,
-    DIP_COUNTER_LIST(DIP_COST_COUNTER)
-#undef DIP_COST_COUNTER
-        DIP_COST_COUNTER_COUNT
-};
-
-extern const char *const dip_cost_counter_names[DIP_COST_COUNTER_COUNT];
 
 // Parts of a frame's time: the stages of the pipeline, in the order of DIP_STAGE_LIST, and the rest
 // (such as the choice of effects, the start of the passes and the filters of the finished picture).
@@ -80,9 +71,9 @@ typedef struct DipCostRow {
     bool *judged;              // [viewpoint]: true if the row's errors there are known. Owned.
     char (*pictures)[33]; // [viewpoint]: hash of the row's pictures, their truths and the pixels
                           // per degree; "" if not known. Owned.
-    double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
-    DipPathEstimate time;                    // Computed from the log.
-    double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of time.mean_ms; they add up to it.
+    double counters[DIP_COUNTER_COUNT];    // Means over the timed frames.
+    DipPathEstimate time;                  // Computed from the log.
+    double stage_ms[DIP_COST_STAGE_COUNT]; // Parts of time.mean_ms; they add up to it.
 } DipCostRow;
 
 // A combination that has no row of its own, because another row draws the same pictures
@@ -124,9 +115,9 @@ typedef struct DipCostChoice {
 // report, so it can be compared with the rows' times.
 typedef struct DipCostElsewhere {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT]; // Means over the timed frames.
-    DipEstimate ms;                          // Mean time of a frame.
-    double stage_ms[DIP_COST_STAGE_COUNT];   // Parts of ms.value; they add up to it.
+    double counters[DIP_COUNTER_COUNT];    // Means over the timed frames.
+    DipEstimate ms;                        // Mean time of a frame.
+    double stage_ms[DIP_COST_STAGE_COUNT]; // Parts of ms.value; they add up to it.
 } DipCostElsewhere;
 
 // How far predictions lie from measurements: |predicted / measured - 1| over some rows.
@@ -142,7 +133,7 @@ typedef struct DipCostMisses {
 // predicted, unless the combination is measured to predict the others (`trained` below).
 typedef struct DipCostPrediction {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT]; // Means per frame.
+    double counters[DIP_COUNTER_COUNT]; // Means per frame.
     // These three are measured values if the combination was measured to predict the others. All
     // other combinations keep their predicted values, even when they are measured later.
     double ms;     // Mean time of a frame.
@@ -304,9 +295,8 @@ DipMetricSums dip_cost_row_sums(const DipCostReport *report, int row, int *viewp
 // Returns whether a row's errors are known at any viewpoint.
 bool dip_cost_is_judged(const DipCostReport *report, int row);
 
-// Returns the metrics of a row over all judged viewpoints, in one region. Region 0 is the whole
-// picture (app/measure/metrics/metrics.h).
-DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row, int region);
+// Returns the metrics of a row's whole pictures, over all judged viewpoints.
+DipMetrics dip_cost_row_metrics(const DipCostReport *report, int row);
 
 // Metrics of the whole picture.
 typedef enum DipCostMetric {

@@ -35,7 +35,7 @@ typedef struct Work {
                         // frame; 1 if there are no filters.
 } Work;
 
-#define C(name) (w->counters[DIP_COST_COUNTER_##name])
+#define C(name) (w->counters[DIP_COUNTER_##name])
 
 // All combinations of a scene pose the same number of vertices, so a fit cannot separate the time
 // of posing them from the constant time of a frame. In scenes with posed vertices, the term "frame"
@@ -147,7 +147,7 @@ const char *dip_cost_term_name(int stage, int term) {
     return names[stage][term];
 }
 
-static Work work_of(const double counters[DIP_COST_COUNTER_COUNT], const DipQuality *quality) {
+static Work work_of(const double counters[DIP_COUNTER_COUNT], const DipQuality *quality) {
     const int level = quality->step[DIP_SETTING_MIPLOD];
     const int post = quality->step[DIP_SETTING_POST];
     const double samples = dip_quality_sample_count(quality);
@@ -190,15 +190,14 @@ static void write_amounts(int stage, const Work *w, double amounts[DIP_COST_MAX_
     }
 }
 
-void dip_cost_terms(int stage, const double counters[DIP_COST_COUNTER_COUNT],
-                    const DipQuality *quality, double amounts[DIP_COST_MAX_TERMS]) {
+void dip_cost_terms(int stage, const double counters[DIP_COUNTER_COUNT], const DipQuality *quality,
+                    double amounts[DIP_COST_MAX_TERMS]) {
     const Work work = work_of(counters, quality);
     write_amounts(stage, &work, amounts);
 }
 
 double dip_cost_sum_terms(int first, int end, const double (*prices)[DIP_COST_MAX_TERMS],
-                          const double counters[DIP_COST_COUNTER_COUNT],
-                          const DipQuality *quality) {
+                          const double counters[DIP_COUNTER_COUNT], const DipQuality *quality) {
     const Work work = work_of(counters, quality);
     double amounts[DIP_COST_MAX_TERMS], sum = 0.0;
     for (int stage = first; stage < end; stage++) {

@@ -2,7 +2,6 @@
 // renderer/base/trig.h, so the sphere is the same on every machine.
 #include "app/session/backdrop.h"
 
-#include "app/session/added_surface.h"
 #include "renderer/base/srgb.h"
 #include "renderer/base/trig.h"
 
@@ -18,8 +17,7 @@ enum { COLUMNS = 128, ROWS = 64, VERTICES = (COLUMNS + 1) * (ROWS + 1) };
 static const double radius_in_sizes = 1000.0;
 
 // Fills the rows of vertices from the top of the picture to its bottom.
-static void fill_vertices(const DipExtent *extent, float *positions) {
-    float *uv = positions + 3 * VERTICES;
+static void fill_vertices(const DipExtent *extent, float *positions, float *uv) {
     double size2 = 0.0;
     for (int i = 0; i < 3; i++) {
         const double side = extent->high[i] - extent->low[i];
@@ -67,58 +65,32 @@ static void fill_picture(const DipEnvironmentDef *environment, const DipSrgbEnco
     }
 }
 
-static void add_sphere(DipBackdrop *backdrop, const DipEnvironmentDef *environment) {
+DipAddedSurface *dip_backdrop_create(const DipSceneDef *def, const DipExtent *extent,
+                                     DipError *err) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
-    dip_scene_def_add_surface(&backdrop->def,
-                              &(DipTextureDef){.name = "environment",
-                                               .width = environment->width,
-                                               .height = environment->height,
-                                               .rgba8 = backdrop->rgba8,
-                                               .encoding = DIP_ENCODING_SRGB,
-                                               .wrap_u = DIP_WRAP_REPEAT,
-                                               .wrap_v = DIP_WRAP_CLAMP},
-                              white,
-                              &(DipMeshDef){.name = "environment",
-                                            .vertex_count = VERTICES,
-                                            .positions = backdrop->positions,
-                                            .uv0 = backdrop->positions + 3 * VERTICES,
-                                            .index_count = 6 * ROWS * COLUMNS,
-                                            .indices = backdrop->indices});
-}
-
-DipBackdrop *dip_backdrop_create(const DipSceneDef *def, const DipExtent *extent, DipError *err) {
     const DipEnvironmentDef *environment = def->environment;
-    const size_t texels = (size_t)environment->width * (size_t)environment->height;
-    DipBackdrop *backdrop = calloc(1, sizeof *backdrop);
-    DipSrgbEncodeTable *codes = malloc(sizeof *codes);
-    bool made = backdrop && codes && dip_scene_def_begin_surface(def, &backdrop->def);
-    if (made) {
-        backdrop->rgba8 = malloc(4 * texels);
-        backdrop->positions = malloc(5 * VERTICES * sizeof *backdrop->positions);
-        backdrop->indices = malloc((size_t)6 * ROWS * COLUMNS * sizeof *backdrop->indices);
-        made = backdrop->rgba8 && backdrop->positions && backdrop->indices;
+    const DipTextureDef picture = {.name = "environment",
+                                   .width = environment->width,
+                                   .height = environment->height,
+                                   .encoding = DIP_ENCODING_SRGB,
+                                   .wrap_u = DIP_WRAP_REPEAT,
+                                   .wrap_v = DIP_WRAP_CLAMP};
+    const DipMeshDef sphere = {
+        .name = "environment", .vertex_count = VERTICES, .index_count = 6 * ROWS * COLUMNS};
+    DipAddedSurface *backdrop = dip_added_surface_create(def, &picture, white, &sphere, err);
+    if (!backdrop) {
+        return NULL;
     }
-    if (made) {
+    DipSrgbEncodeTable *codes = malloc(sizeof *codes);
+    if (codes) {
         dip_srgb_encode_table(codes);
-        fill_vertices(extent, backdrop->positions);
+        fill_vertices(extent, backdrop->positions, backdrop->uv);
         fill_indices(backdrop->indices);
         fill_picture(environment, codes, backdrop->rgba8);
-        add_sphere(backdrop, environment);
     } else {
-        dip_backdrop_destroy(&backdrop);
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "environment", "out of memory");
+        dip_added_surface_destroy(&backdrop);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, sphere.name, "out of memory");
     }
     free(codes);
     return backdrop;
-}
-
-void dip_backdrop_destroy(DipBackdrop **backdrop) {
-    if (*backdrop) {
-        dip_scene_def_free_surface(&(*backdrop)->def);
-        free((*backdrop)->rgba8);
-        free((*backdrop)->positions);
-        free((*backdrop)->indices);
-        free(*backdrop);
-        *backdrop = NULL;
-    }
 }

@@ -4,7 +4,6 @@
 // the texture has the same bits on every machine.
 #include "app/session/ground.h"
 
-#include "app/session/added_surface.h"
 #include "renderer/scene/motion.h"
 
 #include <math.h>
@@ -391,71 +390,51 @@ static bool fill_shade(const Grid *grid, double size, uint8_t *rgba8) {
 
 // --- the scene with the ground -------------------------------------------------------------------
 
-static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-
-// Adds the ground's square.
-static void add_square(DipGround *ground, const Grid *grid, double level) {
+static void fill_square(DipAddedSurface *ground, const Grid *grid, double level) {
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     const double size = grid->cell * GRID;
     for (int i = 0; i < 4; i++) {
         const int right = i == 1 || i == 2;
         const int front = i < 2; // Seen from above, the corners run counter-clockwise.
-        ground->positions[i][0] = (float)(grid->low[0] + right * size);
-        ground->positions[i][1] = (float)level;
-        ground->positions[i][2] = (float)(grid->low[1] + front * size);
-        ground->uv[i][0] = (float)right;
-        ground->uv[i][1] = (float)front;
+        ground->positions[3 * i] = (float)(grid->low[0] + right * size);
+        ground->positions[3 * i + 1] = (float)level;
+        ground->positions[3 * i + 2] = (float)(grid->low[1] + front * size);
+        ground->uv[2 * i] = (float)right;
+        ground->uv[2 * i + 1] = (float)front;
     }
-    dip_scene_def_add_surface(&ground->def,
-                              &(DipTextureDef){.name = "shade of the ground",
-                                               .width = GRID,
-                                               .height = GRID,
-                                               .rgba8 = ground->shade_rgba8,
-                                               .encoding = DIP_ENCODING_LINEAR,
-                                               .wrap_u = DIP_WRAP_CLAMP,
-                                               .wrap_v = DIP_WRAP_CLAMP},
-                              ground->def.background_lin,
-                              &(DipMeshDef){.name = "ground",
-                                            .vertex_count = 4,
-                                            .positions = ground->positions[0],
-                                            .uv0 = ground->uv[0],
-                                            .index_count = 6,
-                                            .indices = indices});
+    memcpy(ground->indices, indices, sizeof indices);
 }
 
-DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err) {
-    DipGround *ground = calloc(1, sizeof *ground);
-    Grid *grid = malloc(sizeof *grid);
-    bool made = ground && grid && dip_scene_def_begin_surface(def, &ground->def);
-    if (made) {
-        ground->shade_rgba8 = malloc((size_t)4 * GRID * GRID);
-        made = ground->shade_rgba8 != NULL;
+DipAddedSurface *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err) {
+    const DipTextureDef shade = {.name = "shade of the ground",
+                                 .width = GRID,
+                                 .height = GRID,
+                                 .encoding = DIP_ENCODING_LINEAR,
+                                 .wrap_u = DIP_WRAP_CLAMP,
+                                 .wrap_v = DIP_WRAP_CLAMP};
+    const DipMeshDef square = {.name = "ground", .vertex_count = 4, .index_count = 6};
+    DipAddedSurface *ground =
+        dip_added_surface_create(def, &shade, def->background_lin, &square, err);
+    if (!ground) {
+        return NULL;
     }
+    Grid *grid = malloc(sizeof *grid);
     const double size = size_of(extent);
     const double half = 0.5 * width_of(extent) + 0.8 * size;
-    if (made) {
+    if (grid) {
         *grid = (Grid){.low = {0.5 * (extent->low[0] + extent->high[0]) - half,
                                0.5 * (extent->low[2] + extent->high[2]) - half},
                        .cell = 2.0 * half / GRID,
                        .floor = extent->low[1],
                        .most = layers[LAYERS - 1].reach * size};
         fill_grid(grid, def);
-        made = fill_shade(grid, size, ground->shade_rgba8);
     }
-    if (made) {
-        add_square(ground, grid, extent->low[1] - gap * size);
+    if (grid && fill_shade(grid, size, ground->rgba8)) {
+        fill_square(ground, grid, extent->low[1] - gap * size);
     } else {
-        dip_ground_destroy(&ground);
-        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "ground", "out of memory");
+        dip_added_surface_destroy(&ground);
+        dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, square.name, "out of memory");
     }
     free(grid);
     return ground;
-}
-
-void dip_ground_destroy(DipGround **ground) {
-    if (*ground) {
-        dip_scene_def_free_surface(&(*ground)->def);
-        free((*ground)->shade_rgba8);
-        free(*ground);
-        *ground = NULL;
-    }
 }

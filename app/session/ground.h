@@ -4,6 +4,7 @@
 #ifndef DIP_APP_SESSION_GROUND_H
 #define DIP_APP_SESSION_GROUND_H
 
+#include "app/session/added_surface.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/scene.h"
 
@@ -36,19 +37,9 @@ DipSilhouette dip_silhouette_of(const DipSceneDef *def, const DipExtent *extent)
 // below the origin, or if memory runs out.
 bool dip_ground_is_missing(const DipSceneDef *def, const DipExtent *extent);
 
-// A scene with a ground. Owns the ground and the arrays of `def`. Everything else that these arrays
-// point to belongs to the scene without the ground.
-typedef struct DipGround {
-    DipSceneDef def;
-    uint8_t *shade_rgba8;
-    float positions[4][3];
-    float uv[4][2];
-} DipGround;
-
-// Adds a ground to a scene. The shade is that of the scene at the start of its clips. Returns NULL
-// and fills *err with DIP_ERROR_MEMORY when memory runs out. The scene must outlive the ground.
-DipGround *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
-// *ground may be NULL and becomes NULL.
-void dip_ground_destroy(DipGround **ground);
+// Adds a ground to a scene. The shade, which is the ground's texture, is that of the scene at the
+// start of its clips. Returns NULL and fills *err with DIP_ERROR_MEMORY when memory runs out. The
+// scene must outlive the ground.
+DipAddedSurface *dip_ground_create(const DipSceneDef *def, const DipExtent *extent, DipError *err);
 
 #endif

@@ -1,5 +1,5 @@
 // Opens a session: reads the ini, starts the threads and makes the renderers. Draws both panes with
-// the renderers.
+// the renderers. Measures how long the parts of the start take.
 #include "app/session/session_private.h"
 
 #include "app/cli/log.h"
@@ -281,8 +281,7 @@ void dip_session_close(DipSession *session) {
     dip_session_free_paths(session);
     dip_session_free_animations(session);
     dip_scene_destroy(&session->scene);
-    dip_ground_destroy(&session->ground);
-    dip_backdrop_destroy(&session->backdrop);
+    dip_added_surface_destroy(&session->added);
     dip_model_destroy(&session->model);
     free(session->environment);
     dip_pool_destroy(&session->pool);
@@ -347,4 +346,25 @@ bool dip_session_draw(DipSession *session, int64_t play_ns, uint64_t frame_index
     }
     dip_start_times_frame(&session->times);
     return true;
+}
+
+// --- the times of the start ----------------------------------------------------------------------
+
+double dip_start_times_since_ms(int64_t begin_ns) {
+    return 1e-6 * (double)(dip_clock_ns() - begin_ns);
+}
+
+void dip_start_times_frame(DipStartTimes *times) {
+    if (times->total_ms == 0.0) {
+        times->first_frame_ms = dip_start_times_since_ms(times->opened_ns);
+        times->total_ms = dip_start_times_since_ms(times->begin_ns);
+    }
+}
+
+void dip_start_times_format(const DipStartTimes *times, char *text, size_t size_bytes) {
+    snprintf(text, size_bytes, "start, ms:");
+#define ADD_PART(name, what)                                                                       \
+    snprintf(text + strlen(text), size_bytes - strlen(text), " %s %.1f", #name, times->name##_ms);
+    DIP_START_TIME_LIST(ADD_PART)
+#undef ADD_PART
 }

@@ -96,12 +96,12 @@ typedef struct DipSession {
     // --model is given or if the ini has no level.
     DipReflectionDef reflection;
     bool force_all_effects;
-    DipModel *model;                // NULL unless the session keeps it for the reference renderer.
-    DipGround *ground;              // The ground below that model; NULL if it has none.
-    DipBackdrop *backdrop;          // The environment behind that model; NULL if it is not shown.
+    DipModel *model;        // NULL unless the session keeps it for the reference renderer.
+    DipAddedSurface *added; // The ground below that model, or the environment behind it; NULL if
+                            // neither is shown.
     DipEnvironmentDef *environment; // What the models reflect; NULL if no environment is used.
     // The model's scene with its background and sky, and with the ground or the backdrop. Points
-    // into `model`, `ground`, `backdrop` and `environment`.
+    // into `model`, `added` and `environment`.
     DipSceneDef scene_def;
     DipSessionAnimations animations;
     // The extent and the silhouette of the models, without the ground. The silhouette is known only

@@ -237,39 +237,22 @@ static DipModel *load_model(const DipSession *session, DipErrorList *faults, Dip
     return model;
 }
 
-// The surfaces that the program adds to the models.
-typedef struct Additions {
-    DipGround *ground;
-    DipBackdrop *backdrop;
-} Additions;
-
-static void destroy_additions(Additions *added) {
-    dip_ground_destroy(&added->ground);
-    dip_backdrop_destroy(&added->backdrop);
-}
-
 // Shows the environment behind the scene if this is wanted. Otherwise, adds a ground if the models
 // need a ground and a ground is wanted. Fails only if memory runs out.
-static bool add_surfaces(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
-                         Additions *added, DipError *err) {
+static bool add_surface(const DipSession *session, const DipExtent *extent, DipSceneDef *def,
+                        DipAddedSurface **added, DipError *err) {
     const bool wanted =
         session->options->model_count ? !session->options->no_ground : session->config.ground;
-    *added = (Additions){NULL, NULL};
-    if (def->environment && session->config.environment_background) {
-        added->backdrop = dip_backdrop_create(def, extent, err);
-        if (added->backdrop) {
-            *def = added->backdrop->def;
-        }
-        return added->backdrop != NULL;
-    }
-    if (!wanted || !dip_ground_is_missing(def, extent)) {
+    const bool environment = def->environment && session->config.environment_background;
+    if (!environment && !(wanted && dip_ground_is_missing(def, extent))) {
         return true;
     }
-    added->ground = dip_ground_create(def, extent, err);
-    if (added->ground) {
-        *def = added->ground->def;
+    *added =
+        environment ? dip_backdrop_create(def, extent, err) : dip_ground_create(def, extent, err);
+    if (*added) {
+        *def = (*added)->def;
     }
-    return added->ground != NULL;
+    return *added != NULL;
 }
 
 const char *dip_session_scene_file(const DipSession *session) {
@@ -292,14 +275,9 @@ bool dip_session_keep_model(DipSession *session, DipError *err) {
         DipErrorList warnings = {0}; // The first load has already reported these warnings.
         session->model = load_model(session, &warnings, &session->scene_def, err);
         dip_error_list_free(&warnings);
-        Additions added;
         if (session->model &&
-            !add_surfaces(session, &session->extent, &session->scene_def, &added, err)) {
+            !add_surface(session, &session->extent, &session->scene_def, &session->added, err)) {
             dip_model_destroy(&session->model);
-        }
-        if (session->model) {
-            session->ground = added.ground;
-            session->backdrop = added.backdrop;
         }
     }
     return session->model != NULL;
@@ -308,7 +286,7 @@ bool dip_session_keep_model(DipSession *session, DipError *err) {
 bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *faults) {
     DipError err = {0};
     DipSceneDef def;
-    Additions added = {NULL, NULL};
+    DipAddedSurface *added = NULL;
     if (!load_environment(session, faults)) {
         return false;
     }
@@ -319,18 +297,17 @@ bool dip_session_load_scene(DipSession *session, bool keep_model, DipErrorList *
             session->silhouette = dip_silhouette_of(&def, &session->extent);
         }
         session->scene = keep_animations(session, model, &err) &&
-                                 add_surfaces(session, &session->extent, &def, &added, &err)
+                                 add_surface(session, &session->extent, &def, &added, &err)
                              ? dip_scene_create(&def, session->pool, &err)
                              : NULL;
         session->times.import_ms = dip_model_times(model).import_ms;
         session->times.pictures_ms = dip_model_times(model).pictures_ms;
         if (session->scene && keep_model) {
             session->model = model;
-            session->ground = added.ground;
-            session->backdrop = added.backdrop;
+            session->added = added;
             session->scene_def = def;
         } else {
-            destroy_additions(&added);
+            dip_added_surface_destroy(&added);
             dip_model_destroy(&model);
         }
     }

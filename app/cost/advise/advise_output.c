@@ -1,7 +1,6 @@
 // Prints common advice (common_advice.h) for a terminal, and writes it as JSON.
 #include "app/cost/advise/common_advice.h"
 
-#include "app/files/whole_file.h"
 #include "app/report/report.h"
 #include "app/report/format/sections.h"
 #include "app/report/words.h"
@@ -185,10 +184,6 @@ static int count_ties(const DipFieldAt *at) {
     return count < DIP_ADVICE_TIES ? count : DIP_ADVICE_TIES;
 }
 
-#define LIST(RECORD, COUNT, ITEM)                                                                  \
-    .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON, .list = &(const DipFieldList) {               \
-        .record = &(RECORD), .count = COUNT, .item = ITEM                                          \
-    }
 static const DipField tie_element = {.kind = DIP_FIELD_SETTINGS};
 static const DipField budget_fields[] = {
     {"budget_ms", NULL, "ms", "The time that a frame may take.",
@@ -198,8 +193,7 @@ static const DipField budget_fields[] = {
      DIP_DERIVED(RECORD, derive_chosen), .record = &choice_record},
     {"ties", NULL, NULL,
      "Up to eight other combinations of settings that are as good as the chosen one.",
-     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
-     .list = &(const DipFieldList){.element = &tie_element, .count = count_ties, .item = get_tie}},
+     DIP_LIST(.element = &tie_element, .count = count_ties, .item = get_tie)},
     {"tie_count", NULL, NULL, "Number of all combinations that are as good as the chosen one.",
      DIP_FACT(WHOLE, DipCostCommonAdvice, all.tie_count)},
     {"next_better", NULL, NULL,
@@ -212,7 +206,7 @@ static const DipField budget_fields[] = {
      DIP_FACT(NUMBER, DipCostCommonAdvice, all.next_ms), .known = has_next},
     {"reports", NULL, NULL,
      "What each report says about the chosen settings, in the order of the command line.",
-     LIST(line_record, count_reports, get_line)},
+     DIP_LIST(.record = &line_record, .count = count_reports, .item = get_line)},
 };
 static const DipRecord budget_record =
     DIP_RECORD("budget", "The settings to choose for one time budget.", budget_fields,
@@ -234,22 +228,17 @@ static const DipField advised_fields[] = {
      "Number of combinations that every report holds with a time and an error.",
      DIP_DERIVED(WHOLE, derive_combinations)},
     {"reports", NULL, NULL, "The reports, in the order of the command line.",
-     LIST(report_record, count_reports, get_report)},
+     DIP_LIST(.record = &report_record, .count = count_reports, .item = get_report)},
     {"advice", NULL, NULL, "What to choose for each time budget.",
-     LIST(budget_record, count_budgets, get_budget)},
+     DIP_LIST(.record = &budget_record, .count = count_budgets, .item = get_budget)},
 };
 const DipRecord dip_cost_common_record = DIP_RECORD(
     "common advice", "What `diptych cost advise --json` writes.", advised_fields, Advised, NULL);
 
-static bool print_json(const void *advised, FILE *out) {
-    dip_fields_print_json(&dip_cost_common_record, &(DipFieldAt){(void *)advised, advised, 0, NULL},
-                          out);
-    return true;
-}
-
 bool dip_cost_common_write_json(const DipCostCommon *common, const DipCostCommonAdvice *advice,
                                 int count, const char *file, DipError *err) {
-    return dip_whole_file_print(file, print_json, &(Advised){common, advice, count}, err);
+    return dip_fields_write_json(&dip_cost_common_record, &(Advised){common, advice, count}, file,
+                                 err);
 }
 
 // --- the terminal --------------------------------------------------------------------------------

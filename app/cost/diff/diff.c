@@ -35,7 +35,7 @@ const char *dip_cost_diff_title(int quantity) {
     return quantity < DIP_COST_DIFF_ERROR_COUNT ? error_titles[quantity]
            : quantity == DIP_COST_DIFF_pictures
                ? "pictures"
-               : dip_cost_counter_names[quantity - DIP_COST_DIFF_FIRST_COUNTER];
+               : dip_counter_names[quantity - DIP_COST_DIFF_FIRST_COUNTER];
 }
 
 bool dip_cost_diff_differs(const DipCostDiffRow *row, int quantity) {

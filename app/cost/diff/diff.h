@@ -28,20 +28,13 @@ enum {
     DIP_COST_DIFF_FRAMES = 6
 };
 
-// A combination of settings to compare.
-typedef struct DipCostDiffSet {
-    // The settings as text: as the user typed them, or one of the default sets.
-    char text[DIP_SETTINGS_BYTES];
-    DipQuality quality;
-} DipCostDiffSet;
-
 // The whole command line. Texts are borrowed from argv.
 typedef struct DipCostDiffArguments {
     DipProgramOptions program;
     DipSessionOptions session; // What the programs draw.
     const char *sides[2];      // A and B.
     int side_count;
-    DipCostDiffSet sets[DIP_COST_DIFF_MAX_SETS];
+    DipOptionSet sets[DIP_COST_DIFF_MAX_SETS]; // The combinations of settings to compare.
     int set_count;
     // If measure.rounds is 0, each start has DIP_COST_DIFF_ROUNDS rounds if both sides are
     // programs, and 1 round if only one side is.
@@ -64,7 +57,7 @@ enum {
     DIP_COST_DIFF_ERROR_COUNT,
     DIP_COST_DIFF_pictures = DIP_COST_DIFF_ERROR_COUNT,
     DIP_COST_DIFF_FIRST_COUNTER,
-    DIP_COST_DIFF_QUANTITY_COUNT = DIP_COST_DIFF_FIRST_COUNTER + DIP_COST_COUNTER_COUNT
+    DIP_COST_DIFF_QUANTITY_COUNT = DIP_COST_DIFF_FIRST_COUNTER + DIP_COUNTER_COUNT
 };
 
 enum {

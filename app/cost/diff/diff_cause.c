@@ -140,7 +140,7 @@ static void list_work(const DipTimesFit *fit, const DipCostDiff *diff, DipBenchS
     for (int r = 0; r < rows; r++) {
         work[PER_FRAME * rows + r] = 1.0;
         work[STAGE_TIME * rows + r] = diff->rows[r].ms[0] * dip_times_shares(fit, 2 * r)[stage];
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             const double value = diff->rows[r].values[0][DIP_COST_DIFF_FIRST_COUNTER + c];
             work[(FIRST_COUNTER + c) * rows + r] = isnan(value) ? 0.0 : value;
         }
@@ -164,13 +164,13 @@ static void write_cause(DipCostDiff *diff, const DipCauseData *data, const DipCa
         const int counter = cause->kind - FIRST_COUNTER;
         int written = snprintf(text, size,
                                " It grows with %s, by %.3g ns each: this work is the likely cause.",
-                               dip_cost_counter_names[counter], 1e6 * cause->price);
+                               dip_counter_names[counter], 1e6 * cause->price);
         for (int k = cause->kind + 1; k < data->kinds; k++) {
             if (dip_cause_is_same_work(data, cause->kind, k) && written >= 0 &&
                 (size_t)written < size) {
                 written +=
                     snprintf(text + written, size - (size_t)written, " (%s grows in proportion.)",
-                             dip_cost_counter_names[k - FIRST_COUNTER]);
+                             dip_counter_names[k - FIRST_COUNTER]);
             }
         }
     }
@@ -209,7 +209,7 @@ static bool list_per_start(const DipTimes *all, int rows, DipBenchStage stage, d
 bool dip_cost_diff_explain(DipCostDiff *diff, const DipTimes *times, const DipTimesFit *fit,
                            DipError *err) {
     const int rows = diff->row_count, starts = times->starts;
-    const int kinds = FIRST_COUNTER + DIP_COST_COUNTER_COUNT;
+    const int kinds = FIRST_COUNTER + DIP_COUNTER_COUNT;
     double share;
     const DipBenchStage stage = slowest_stage(diff, &share);
     const char *name = dip_bench_stage_names[stage];

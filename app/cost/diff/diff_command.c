@@ -28,14 +28,6 @@ static const double least_limit = 1.01;
 static const char default_sets[] = "aa=none;aa=4;aa=8;af=16;aa=8,af=16;aa=8,aaa=on;opt=advanced;"
                                    "aa=8,aaa=on,asd=2,af=16,aaf=on";
 
-static bool read_set(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
-    (void)row;
-    DipCostDiffArguments *diff = fields;
-    DipCostDiffSet *set = &diff->sets[diff->set_count];
-    snprintf(set->text, sizeof set->text, "%s", value);
-    return dip_quality_parse(value, &set->quality, err);
-}
-
 static bool read_share(void *fields, const DipOptionRow *row, const char *value, DipError *err) {
     DipCostDiffArguments *diff = fields;
     const size_t length = strlen(value);
@@ -56,8 +48,8 @@ static const DipOptionRow judge_rows[] = {
 };
 
 static const DipOptionRow run_rows[] = {
-    {"--sets", "LIST", DIP_OPTION_LIST, .count = FIELD(set_count), .room = DIP_COST_DIFF_MAX_SETS,
-     .separator = ';', .read = read_set,
+    {"--sets", "LIST", DIP_OPTION_LIST, FIELD(sets), .count = FIELD(set_count),
+     .room = DIP_COST_DIFF_MAX_SETS, .separator = ';', .item = DIP_OPTION_SET,
      .text =
          "Settings to time, as SET;SET;... in quotes. The default is eight sets of antialiasing, "
          "adaptive AA, anisotropic filtering and texture optimisations."},
@@ -84,9 +76,7 @@ static const DipOptionPart parts[] = {
 };
 static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-static void set_defaults(void *arguments, int argc, char *const *argv) {
-    (void)argc;
-    (void)argv;
+static void set_defaults(void *arguments) {
     DipCostDiffArguments *diff = arguments;
     diff->measure.starts = DIP_COST_DIFF_STARTS;
     dip_option_store(&run_rows[0], default_sets, diff, NULL);

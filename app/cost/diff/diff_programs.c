@@ -11,7 +11,6 @@
 // and the last set, which has the same settings.
 #include "app/cost/diff/diff.h"
 
-#include "app/cli/drive.h"
 #include "app/cli/progress.h"
 #include "app/cli/machine.h"
 #include "app/measure/timing/child.h"
@@ -247,7 +246,7 @@ static void count_work(const Duel *duel, int subject, double *counters) {
     for (int f = 0; f < duel->frames; f++) {
         dip_counters_add(&duel->first[subject * duel->frames + f].counters, counters);
     }
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] /= duel->frames;
     }
 }

@@ -218,7 +218,7 @@ static void copy_counters(const DipCostReport *const reports[2], const int rows[
                           DipCostDiffRow *to) {
     for (int side = 0; side < 2; side++) {
         const double frames = dip_cost_frame_count(reports[side]);
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             to->values[side][DIP_COST_DIFF_FIRST_COUNTER + c] =
                 round(reports[side]->rows[rows[side]].counters[c] * frames) / frames;
         }

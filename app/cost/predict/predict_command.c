@@ -39,9 +39,7 @@ static const DipOptionPart parts[] = {
 };
 static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
-static void set_defaults(void *arguments, int argc, char *const *argv) {
-    (void)argc;
-    (void)argv;
+static void set_defaults(void *arguments) {
     ((DipCostPredictArguments *)arguments)->timed = 6;
 }
 

@@ -82,11 +82,11 @@ static bool scale_counters(DipCostContext *there, DipError *err) {
     DipCostReport *report = there->report;
     const int found = dip_report_find_predicted(&report->predicted, &report->options.baseline);
     const DipCostPrediction few = report->predicted.list[found >= 0 ? found : 0];
-    double all[DIP_COST_COUNTER_COUNT];
+    double all[DIP_COUNTER_COUNT];
     if (!dip_cost_count(there, &few.quality, dip_cost_frame_count(report), all, err)) {
         return false;
     }
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         const double scale = few.counters[c] > 0.0 ? all[c] / few.counters[c] : 1.0;
         for (int i = 0; i < report->predicted.count; i++) {
             report->predicted.list[i].counters[c] *= scale;
@@ -220,13 +220,8 @@ static bool open_place(Place *place, const DipSession *session, int threads, Dip
 }
 
 static bool find_isa(const DipCostReport *report, DipIsa *isa, const char *name, DipError *err) {
-    for (int i = 0; i < DIP_ISA_COUNT; i++) {
-        if (strcmp(report->isa, dip_isa_name((DipIsa)i)) == 0 && dip_isa_available((DipIsa)i)) {
-            *isa = (DipIsa)i;
-            return true;
-        }
-    }
-    return dip_error_set(err, DIP_ERROR_UNSUPPORTED, name, 0, "isa",
+    return (dip_isa_parse(report->isa, isa) && dip_isa_available(*isa)) ||
+           dip_error_set(err, DIP_ERROR_UNSUPPORTED, name, 0, "isa",
                          "'%.15s' is an instruction set that this machine does not have; measure "
                          "the report on this machine",
                          report->isa);

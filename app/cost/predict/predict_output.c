@@ -109,11 +109,8 @@ static const DipField prediction_fields[] = {
     {"misses", NULL, NULL, "How far the predictions lie from what was timed.",
      .kind = DIP_FIELD_RECORD, .where = DIP_FIELD_JSON, .record = &misses_record},
     {"combinations", NULL, NULL, "The combinations of the report, with their times there.",
-     .kind = DIP_FIELD_LIST, .where = DIP_FIELD_JSON,
-     .list = &(const DipFieldList){.record = &there_record,
-                                   .items = offsetof(DipCostElsewherePrediction, list),
-                                   .points = true,
-                                   .counted = offsetof(DipCostElsewherePrediction, count)}},
+     DIP_LIST(.record = &there_record, DIP_ARRAY(DipCostElsewherePrediction, list, count),
+              .points = true)},
 };
 const DipRecord dip_cost_prediction_record =
     DIP_RECORD("prediction elsewhere", "What `diptych cost predict --json` writes.",
@@ -181,15 +178,9 @@ void dip_cost_predict_there_print(const DipCostElsewherePrediction *p, FILE *out
 
 // --- files ---------------------------------------------------------------------------------------
 
-static bool print_json(const void *context, FILE *out) {
-    dip_fields_print_json(&dip_cost_prediction_record,
-                          &(DipFieldAt){(void *)context, context, 0, NULL}, out);
-    return true;
-}
-
 bool dip_cost_predict_there_write_json(const DipCostElsewherePrediction *p, const char *file,
                                        DipError *err) {
-    return dip_whole_file_print(file, print_json, p, err);
+    return dip_fields_write_json(&dip_cost_prediction_record, p, file, err);
 }
 
 static bool print_csv(const void *context, FILE *out) {

@@ -9,6 +9,12 @@ const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT] = {
 #undef STAGE_NAME
         "total"};
 
+const char *const dip_counter_names[DIP_COUNTER_COUNT] = {
+#define COUNTER_NAME(name, text) #name,
+    DIP_COUNTER_LIST(COUNTER_NAME)
+#undef COUNTER_NAME
+};
+
 void dip_bench_sample_set(DipBenchSample *sample, const DipFrame *frame, bool hash) {
 #define SET_STAGE(name, text) sample->ms[DIP_BENCH_STAGE_##name] = frame->stages.name##_ms;
     DIP_STAGE_LIST(SET_STAGE)

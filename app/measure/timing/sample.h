@@ -22,6 +22,7 @@ typedef enum DipBenchStage {
     DIP_BENCH_STAGE_COUNT
 } DipBenchStage;
 
+// Indices of the work counters of a frame.
 enum {
 #define DIP_COUNTER_ENUM(name, text) DIP_COUNTER_##name,
     DIP_COUNTER_LIST(DIP_COUNTER_ENUM)
@@ -30,6 +31,7 @@ enum {
 };
 
 extern DIP_API const char *const dip_bench_stage_names[DIP_BENCH_STAGE_COUNT];
+extern DIP_API const char *const dip_counter_names[DIP_COUNTER_COUNT];
 
 // A sample of one drawing of a frame.
 typedef struct DipBenchSample {

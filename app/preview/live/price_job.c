@@ -21,7 +21,7 @@ enum {
 // A combination of the block that is being timed. The first member of a block is the base.
 typedef struct Member {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT]; // Counters of the member's last frame.
+    double counters[DIP_COUNTER_COUNT]; // Counters of the member's last frame.
 } Member;
 
 struct DipPriceJob {

@@ -65,7 +65,7 @@ bool dip_cost_are_sums(const DipMetricSums *sums);
     {                                                                                              \
         "counters", NULL, NULL, "Work of a frame, as means over the timed frames; it is exact.",   \
             DIP_FACT(NUMBERS, TYPE, counters),                                                     \
-            .names = dip_cost_counter_names, .most = DIP_COST_MOST_COUNT, .known = KNOWN,          \
+            .names = dip_counter_names, .most = DIP_COST_MOST_COUNT, .known = KNOWN,               \
             .scale = 1e-3, .digits = 4, .show = DIP_SHOW_FIGURES                                   \
     }
 

@@ -117,7 +117,7 @@ static const void *derive_flip_miss(const DipFieldAt *at, DipFieldScratch *scrat
     if (!line->prediction || line->row < 0) {
         return NULL;
     }
-    const double flip = dip_cost_row_metrics(report_of(at), line->row, 0).flip;
+    const double flip = dip_cost_row_metrics(report_of(at), line->row).flip;
     return flip > 0.0 ? DIP_MADE(double, line->prediction->flip / flip - 1.0) : NULL;
 }
 

@@ -11,7 +11,7 @@
 // --- the answer ----------------------------------------------------------------------------------
 
 static double flip_of(const DipCostReport *report, int row) {
-    return dip_cost_row_metrics(report, row, 0).flip;
+    return dip_cost_row_metrics(report, row).flip;
 }
 
 void dip_section_ties(DipForm *form, const DipCandidates *candidates, const DipAdvice *advice) {

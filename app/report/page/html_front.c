@@ -11,17 +11,13 @@
 
 // --- points --------------------------------------------------------------------------------------
 
-enum { LABEL_ROOM = 12 };
-
 // A series of the plot.
 typedef struct Points {
     int count;
     int rows[DIP_COST_MAX_ROWS]; // Rows of the report, or -1 for a combination without a row.
     double ms[DIP_COST_MAX_ROWS];
     double flip[DIP_COST_MAX_ROWS];
-    char labels[DIP_COST_MAX_ROWS][LABEL_ROOM]; // The numbers 1, 2, ...
     char titles[DIP_COST_MAX_ROWS][DIP_HTML_TITLE_BYTES];
-    const char *label_list[DIP_COST_MAX_ROWS];
     const char *title_list[DIP_COST_MAX_ROWS];
 } Points;
 
@@ -33,8 +29,6 @@ static char *add_point(Points *points, int row, const DipCandidate *candidate) {
     points->rows[i] = row;
     points->ms[i] = candidate->time.value;
     points->flip[i] = fmax(candidate->flip, least_flip);
-    snprintf(points->labels[i], LABEL_ROOM, "%d", i + 1);
-    points->label_list[i] = points->labels[i];
     points->title_list[i] = points->titles[i];
     return points->titles[i];
 }
@@ -113,7 +107,7 @@ static void write_plot(const DipCostReport *report, const Parts *parts, FILE *ou
         series_of(&parts->front, "Pareto front", "series-front"),
     };
     series[2].marks_only = false;
-    series[2].labels = parts->front.label_list;
+    series[2].numbered = true;
     const int first = parts->predicted.count == 0;
     const DipPlot plot = {
         .title = "Time against error",

@@ -26,7 +26,7 @@ static void format_errors(const DipMetrics *f, char text[DIP_COST_TEXT]) {
 }
 
 void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML_TITLE_BYTES]) {
-    const DipMetrics f = dip_cost_row_metrics(report, row, 0);
+    const DipMetrics f = dip_cost_row_metrics(report, row);
     char settings[DIP_COST_TEXT], time[DIP_COST_TEXT], errors[DIP_COST_TEXT];
     dip_cost_settings_text(&report->rows[row].quality, settings);
     format_time(report, row, time);

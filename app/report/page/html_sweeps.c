@@ -31,8 +31,7 @@ static Scale find_scale(const DipCostReport *report, const DipCostSweep *sweep) 
             const DipEstimate *ratio = &sweep->ratios[i];
             scale.most_ratio = fmax(scale.most_ratio, fmax(ratio->value, ratio->high));
         }
-        scale.most_flip =
-            fmax(scale.most_flip, dip_cost_row_metrics(report, sweep->rows[i], 0).flip);
+        scale.most_flip = fmax(scale.most_flip, dip_cost_row_metrics(report, sweep->rows[i]).flip);
     }
     return scale;
 }
@@ -65,7 +64,7 @@ static void write_bars_of(const DipCostReport *report, const DipCostSweep *sweep
                           const Scale *scale, FILE *out) {
     const int row = sweep->rows[index];
     const double y = BAR_TOP + index * BAR_LINE;
-    const double flip = dip_cost_row_metrics(report, row, 0).flip;
+    const double flip = dip_cost_row_metrics(report, row).flip;
     const double width = (BAR_ROOM - 40.0) * flip / scale->most_flip;
     char step[DIP_COST_TEXT];
     dip_cost_step_text(report, sweep, row, step);

@@ -250,9 +250,11 @@ static void write_series(FILE *out, const DipPlotSeries *series, int index, bool
         write_point(out, series, i, pixel(x, series->x[i]), pixel(y, series->y[i]));
     }
     dip_put_html(out, "</g>\n");
-    for (int i = 0; series->labels && i < series->count; i++) {
+    for (int i = 0; series->numbered && i < series->count; i++) {
+        char number[12];
+        snprintf(number, sizeof number, "%d", i + 1);
         write_text(out, pixel(x, series->x[i]) - 4.0, pixel(y, series->y[i]) + 14.0,
-                   "font-size=\"12\" text-anchor=\"end\"", series->labels[i]);
+                   "font-size=\"12\" text-anchor=\"end\"", number);
     }
 }
 

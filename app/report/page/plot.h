@@ -21,7 +21,7 @@ typedef struct DipPlotSeries {
     const double *high;
     int count;
     bool marks_only;           // True if no line connects the points.
-    const char *const *labels; // Texts below and left of the points; NULL for none.
+    bool numbered;             // True to write 1, 2, ... below and left of the points.
     const int *rows;           // Values of the points' attribute data-row, by which a page's script
                                // finds rows; -1 for a point without a row. NULL for none.
     const char *const *titles; // Texts that browsers show beside the pointer; NULL for none.

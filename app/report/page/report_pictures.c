@@ -32,10 +32,6 @@ enum {
     ROW_TEXT_BYTES = 1500 // Room for the texts about one row in the tables and plots.
 };
 
-static bool out_of_memory(DipError *err) {
-    return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "cost", "out of memory");
-}
-
 static size_t pixel_count(const Cutter *c) {
     return (size_t)c->report->width * (size_t)c->report->height;
 }
@@ -69,7 +65,7 @@ static bool open_cutter(Cutter *c, const DipCostReport *report, const DipCostFra
         dip_flip_analysis_init(&c->flip, &c->truth_side);
     if (!made) {
         close_cutter(c);
-        return out_of_memory(err);
+        return dip_cost_out_of_memory(err);
     }
     return true;
 }
@@ -264,7 +260,7 @@ static bool make_set(DipCostPictureSet *set, Cutter *cutter, bool whole, DipErro
     }
     if (made) {
         find_crop(cutter, set);
-        made = cut_all(cutter, set, whole) || out_of_memory(err);
+        made = cut_all(cutter, set, whole) || dip_cost_out_of_memory(err);
     }
     if (!made) {
         free_set(set);

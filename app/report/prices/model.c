@@ -34,7 +34,7 @@ static const double *find_counters(const void *context, const DipQuality *qualit
 }
 
 static bool compose(const DipPriceView *view, const DipQuality *normal,
-                    double counters[DIP_COST_COUNTER_COUNT]) {
+                    double counters[DIP_COUNTER_COUNT]) {
     return dip_work_compose(find_counters, view, &view->base, normal, counters);
 }
 
@@ -53,7 +53,7 @@ static bool are_alike(const DipQuality *a, const DipQuality *b) {
 static double miss_of(const DipPriceView *view, const int *rows, int count, int row) {
     const DipCostRow *left_out = &view->report->rows[row];
     const DipQuality normal = dip_price_normal(&view->base, &left_out->quality);
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     int others[DIP_COST_MAX_ROWS];
     int other_count = 0;
     if (left_out->path != 0 || dip_work_count_groups(&view->base, &normal) < 2 ||
@@ -121,7 +121,7 @@ static void make(const DipPriceView *view) {
 
 bool dip_price_predict(const DipPriceView *view, const DipQuality *normal, DipPriceWhole *whole) {
     const DipPriceKept *model = view->kept;
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     if (!model->has_models) {
         make(view);
     }

@@ -131,7 +131,7 @@ static DipPriceWhole whole_of_row(const DipCostReport *report, int row) {
         whole.time = report->rows[row].time.mean_ms;
     }
     if (whole.has_flip) {
-        whole.flip = dip_cost_row_metrics(report, row, 0).flip;
+        whole.flip = dip_cost_row_metrics(report, row).flip;
         whole.flip_at_floor = dip_cost_at_floor(report, row);
     }
     return whole;

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static DipBenchSet set_of(const char *text) {
-    DipBenchSet set = {.quality = dip_quality_default()};
+static DipOptionSet set_of(const char *text) {
+    DipOptionSet set = {.quality = dip_quality_default()};
     snprintf(set.text, sizeof set.text, "%s", text);
     dip_quality_parse(text, &set.quality, NULL);
     return set;
@@ -13,11 +13,11 @@ static DipBenchSet set_of(const char *text) {
 
 void dip_made_plan(DipBenchPlan *plan, int frames, int rounds) {
     const DipSession session = {.isa = DIP_ISA_SCALAR};
-    DipBenchOptions options = {.set_count = 2,
+    DipBenchOptions options = {.counts[DIP_BENCH_AXIS_SET] = 2,
                                .threads = {1, 2},
-                               .threads_count = 2,
+                               .counts[DIP_BENCH_AXIS_THREADS] = 2,
                                .sizes = {{64, 48}, {128, 96}},
-                               .size_count = 2,
+                               .counts[DIP_BENCH_AXIS_SIZE] = 2,
                                .frames = frames,
                                .measure.rounds = rounds,
                                .measure.has_seed = true,
@@ -29,11 +29,11 @@ void dip_made_plan(DipBenchPlan *plan, int frames, int rounds) {
 
 void dip_made_single_plan(DipBenchPlan *plan, int frames, int rounds) {
     const DipSession session = {.isa = DIP_ISA_SCALAR};
-    DipBenchOptions options = {.set_count = 1,
+    DipBenchOptions options = {.counts[DIP_BENCH_AXIS_SET] = 1,
                                .threads = {1},
-                               .threads_count = 1,
+                               .counts[DIP_BENCH_AXIS_THREADS] = 1,
                                .sizes = {{64, 48}},
-                               .size_count = 1,
+                               .counts[DIP_BENCH_AXIS_SIZE] = 1,
                                .frames = frames,
                                .measure.rounds = rounds,
                                .measure.has_seed = true,

@@ -53,12 +53,13 @@ static void defaults_are_six_settings_and_empty_lists(void **state) {
     (void)state;
     DipCommandLine line;
     const DipBenchOptions *bench = options_of(&line, (const char *const[]){NULL});
-    assert_int_equal(bench->set_count, 6);
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_SET], 6);
     assert_string_equal(bench->sets[0].text, "aa=none");
     assert_string_equal(bench->sets[5].text, "aa=8,af=16");
     assert_int_equal(dip_quality_max_anisotropy(&bench->sets[5].quality), 16);
-    assert_int_equal(bench->threads_count + bench->isa_count + bench->size_count +
-                         bench->scale_count + bench->grid_count,
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_THREADS] + bench->counts[DIP_BENCH_AXIS_ISA] +
+                         bench->counts[DIP_BENCH_AXIS_SIZE] + bench->counts[DIP_BENCH_AXIS_SCALE] +
+                         bench->counts[DIP_BENCH_AXIS_GRID],
                      0);
     assert_int_equal(bench->frames, 12);
     assert_int_equal(bench->measure.rounds, 10);
@@ -72,15 +73,15 @@ static void lists_keep_their_order(void **state) {
     const DipBenchOptions *bench =
         options_of(&line, WORDS("--sets", "aa=2;af=4", "--threads", "2,0,1", "--isa", "scalar,auto",
                                 "--size", "64x48,32x24", "--seed", "9"));
-    assert_int_equal(bench->set_count, 2);
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_SET], 2);
     assert_string_equal(bench->sets[1].text, "af=4");
-    assert_int_equal(bench->threads_count, 3);
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_THREADS], 3);
     assert_int_equal(bench->threads[0], 2);
     assert_int_equal(bench->threads[1], 0);
-    assert_int_equal(bench->isa_count, 2);
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_ISA], 2);
     assert_int_equal(bench->isas[0], DIP_ISA_SCALAR);
     assert_int_equal(bench->isas[1], dip_isa_best());
-    assert_int_equal(bench->size_count, 2);
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_SIZE], 2);
     assert_int_equal(bench->sizes[1].width, 32);
     assert_int_equal(bench->sizes[1].height, 24);
     assert_true(bench->measure.has_seed);
@@ -92,7 +93,7 @@ static void render_scales_are_shares(void **state) {
     (void)state;
     DipCommandLine line;
     const DipBenchOptions *bench = options_of(&line, WORDS("--scale", "0.5,0.1,1"));
-    assert_int_equal(bench->scale_count, 3);
+    assert_int_equal(bench->counts[DIP_BENCH_AXIS_SCALE], 3);
     assert_true(bench->scales[0] == 0.5 && bench->scales[1] == 0.1 && bench->scales[2] == 1.0);
     dip_command_line_free(&line);
     assert_refused(DIP_ERROR_RANGE, "--scale", WORDS("--scale", "0.5,1.01"));
@@ -104,9 +105,10 @@ static void render_scales_are_shares(void **state) {
 static void the_whole_command_line_is_kept_for_other_programs(void **state) {
     (void)state;
     DipCommandLine line;
-    const DipBenchOptions *bench = options_of(&line, WORDS("--frames", "3"));
-    assert_int_equal(bench->serve.argc, 4);
-    assert_ptr_equal(bench->serve.argv, argv);
+    options_of(&line, WORDS("--frames", "3"));
+    const DipProgramOptions *program = line.options;
+    assert_int_equal(program->argc, 4);
+    assert_ptr_equal(program->argv, argv);
     dip_command_line_free(&line);
 }
 
@@ -130,8 +132,9 @@ static void lists_have_at_most_32_values(void **state) {
     for (int i = 2; i <= DIP_BENCH_MAX_VALUES; i++) {
         snprintf(threads + strlen(threads), sizeof threads - strlen(threads), ",%d", i);
     }
-    assert_int_equal(
-        options_of(&line, WORDS("--threads", threads, "--sets", "aa=2"))->threads_count, 32);
+    assert_int_equal(options_of(&line, WORDS("--threads", threads, "--sets", "aa=2"))
+                         ->counts[DIP_BENCH_AXIS_THREADS],
+                     32);
     dip_command_line_free(&line);
     strcat(threads, ",33");
     assert_refused(DIP_ERROR_OVERSIZED, "--threads", WORDS("--threads", threads));

@@ -51,8 +51,11 @@ static void the_session_fills_in_what_options_leave_open(void **state) {
     DipSession session = {.isa = DIP_ISA_SCALAR};
     session.config.res.width = 320;
     session.config.res.height = 200;
-    DipBenchOptions options = {
-        .set_count = 1, .threads = {0}, .threads_count = 1, .frames = 1, .measure.rounds = 1};
+    DipBenchOptions options = {.counts[DIP_BENCH_AXIS_SET] = 1,
+                               .threads = {0},
+                               .counts[DIP_BENCH_AXIS_THREADS] = 1,
+                               .frames = 1,
+                               .measure.rounds = 1};
     options.sets[0].quality = dip_quality_default();
     dip_bench_plan_make(&plan, &session, &options);
     assert_int_equal(plan.count, 1);
@@ -71,7 +74,7 @@ static void grids_are_named_by_their_triangles(void **state) {
     DipBenchOptions options = plan.options;
     options.grids[0] = 10;
     options.grids[1] = 2000;
-    options.grid_count = 2;
+    options.counts[DIP_BENCH_AXIS_GRID] = 2;
     const DipSession session = {.isa = DIP_ISA_SCALAR};
     dip_bench_plan_make(&plan, &session, &options);
     assert_int_equal(plan.count, 2);
@@ -84,15 +87,15 @@ static void grids_are_named_by_their_triangles(void **state) {
 static void rows_know_with_which_rows_they_are_compared(void **state) {
     (void)state;
     const DipSession session = {.isa = DIP_ISA_SCALAR};
-    const DipBenchOptions options = {.set_count = 2,
+    const DipBenchOptions options = {.counts[DIP_BENCH_AXIS_SET] = 2,
                                      .threads = {4, 1, 2},
-                                     .threads_count = 3,
+                                     .counts[DIP_BENCH_AXIS_THREADS] = 3,
                                      .isas = {DIP_ISA_SCALAR, DIP_ISA_SCALAR},
-                                     .isa_count = 2,
+                                     .counts[DIP_BENCH_AXIS_ISA] = 2,
                                      .sizes = {{64, 48}, {128, 96}},
-                                     .size_count = 2,
+                                     .counts[DIP_BENCH_AXIS_SIZE] = 2,
                                      .scales = {0.5, 1.0, 0.75},
-                                     .scale_count = 3,
+                                     .counts[DIP_BENCH_AXIS_SCALE] = 3,
                                      .frames = 1,
                                      .measure.rounds = 1,
                                      .measure.has_seed = true};
@@ -118,7 +121,7 @@ static void render_scales_are_named_with_the_size_that_is_drawn(void **state) {
     assert_string_equal(name, "");
     DipBenchOptions options = plan.options;
     options.scales[0] = 0.5;
-    options.scale_count = 1;
+    options.counts[DIP_BENCH_AXIS_SCALE] = 1;
     const DipSession session = {.isa = DIP_ISA_SCALAR};
     dip_bench_plan_make(&plan, &session, &options);
     dip_bench_value_name(&plan, 0, DIP_BENCH_AXIS_SCALE, name, sizeof name);

@@ -92,8 +92,7 @@ static void fill_row(DipCostReport *report, int index) {
         }
     }
     dip_made_times(report, index, index + 1.0);
-    for (int c = 0; report->rounds > 0 && c < DIP_COST_COUNTER_COUNT;
-         c++) { // counters come from timing
+    for (int c = 0; report->rounds > 0 && c < DIP_COUNTER_COUNT; c++) { // counters come from timing
         row->counters[c] = 1000.0 * index + c;
     }
 }

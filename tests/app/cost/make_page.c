@@ -43,7 +43,7 @@ static void add_combination(DipCostReport *report, int index) {
         abort();
     }
     DipCostRow *row = &report->rows[added];
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         row->counters[c] = c < 3 ? 7000.0 : 123456.7 * (1 + c + index % 7);
     }
     dip_made_times(report, added, 2.0 + 1.7 * (index % 5) + 0.23 * index);

@@ -100,7 +100,7 @@ static DipCostMisses flip_misses_of(const DipCostReport *report, const DipFlipMo
     for (int i = 0; i < count; i++) {
         dip_flip_model_distances(model, &report->rows[rows[i]].quality, distances);
         misses[i] = fabs(dip_flip_model_value(model, distances) /
-                             dip_cost_row_metrics(report, rows[i], 0).flip -
+                             dip_cost_row_metrics(report, rows[i]).flip -
                          1.0);
     }
     return dip_cost_misses_of(misses, count);

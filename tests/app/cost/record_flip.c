@@ -20,7 +20,7 @@ enum { CHUNK = 256 }; // Combinations that are judged together.
 static void print_flip(const DipCostReport *report, int row, int index) {
     const int at = index % RECORDED_PER_LINE;
     char text[3];
-    recorded_write(dip_cost_row_metrics(report, row, 0).flip, text);
+    recorded_write(dip_cost_row_metrics(report, row).flip, text);
     printf("%s%s%s", at == 0 ? "      \"" : "", text, at == RECORDED_PER_LINE - 1 ? "\",\n" : "");
 }
 
@@ -50,7 +50,7 @@ static bool run(const DipSession *session, const char *folder, DipError *err) {
     DipCostContext cost;
     char cache[PATH_MAX], plan[33];
     DipCostArguments arguments = {0};
-    dip_cost_options_default(&arguments, 0, NULL);
+    dip_cost_options_default(&arguments);
     DipCostOptions options = arguments.cost;
     options.has_combined = options.predict = true; // No setting is combined, so none is swept.
     options.places = options.burst = 1;

@@ -33,7 +33,7 @@ static const unsigned combined = BIT(AA) | BIT(TAA) | BIT(AAA) | BIT(AF) | BIT(A
 // What is true of each combination.
 typedef struct True {
     DipQuality quality;
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     double stage_ms[DIP_COST_STAGE_COUNT];
     double ms;
     double p95_ms;
@@ -57,17 +57,17 @@ static void make_work(const DipQuality *quality, double *counters) {
     const double samples = dip_quality_sample_count(quality);
     const double shaded = dip_quality_groups_shade_all(quality) ? samples : 1.0;
     const double probes = 1.0 + 0.5 * step[DIP_SETTING_AF];
-    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
-    counters[DIP_COST_COUNTER_triangles_in] = 2e4;
-    counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
-    counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale * shaded;
-    counters[DIP_COST_COUNTER_fragments_clip_tested] =
+    memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
+    counters[DIP_COUNTER_fragments_shaded] = 3e5 * scale * scale * shaded;
+    counters[DIP_COUNTER_fragments_clip_tested] =
         4e4 * scale * scale * (1.0 + step[DIP_SETTING_AAA]);
-    counters[DIP_COST_COUNTER_texture_probes] = 3e5 * scale * scale * shaded * probes;
-    counters[DIP_COST_COUNTER_texels_fetched] =
+    counters[DIP_COUNTER_texture_probes] = 3e5 * scale * scale * shaded * probes;
+    counters[DIP_COUNTER_texels_fetched] =
         2e6 * scale * scale * shaded * probes * (1.0 + 0.1 * step[DIP_SETTING_MIPLOD]);
-    counters[DIP_COST_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
-    counters[DIP_COST_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
+    counters[DIP_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
+    counters[DIP_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
 }
 
 // A number of the machine's between two bounds for a stage's term. It depends on the term's name

@@ -93,10 +93,9 @@ static void steps_out_of_order_are_named(void **state) {
         &report,
         "As theory says: FLIP falls from step to step, and the counter samples_shown rises.");
     double *counters = report.rows[3].counters;
-    counters[DIP_COST_COUNTER_samples_shown] =
-        report.rows[2].counters[DIP_COST_COUNTER_samples_shown];
+    counters[DIP_COUNTER_samples_shown] = report.rows[2].counters[DIP_COUNTER_samples_shown];
     expect_order(&report, "As theory says"); // equal work does not contradict theory
-    counters[DIP_COST_COUNTER_samples_shown] -= 1.0;
+    counters[DIP_COUNTER_samples_shown] -= 1.0;
     expect_order(&report, "at step \"4\", the counter samples_shown should rise but does not.");
     report.rows[2].viewpoints[0].regions[0].flip = 100.0;
     expect_order(&report, "at step \"2\", FLIP should fall but does not.");
@@ -231,11 +230,11 @@ static void the_fit_finds_the_prices(void **state) {
     for (int r = 0; r < ROWS; r++) {
         DipCostRow *row = &report.rows[r];
         row->quality = dip_quality_default();
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             row->counters[c] = 1e6 * random_share();
         }
-        const double ns = 5e5 + 20.0 * row->counters[DIP_COST_COUNTER_fragments_shaded] +
-                          3.0 * row->counters[DIP_COST_COUNTER_texels_fetched];
+        const double ns = 5e5 + 20.0 * row->counters[DIP_COUNTER_fragments_shaded] +
+                          3.0 * row->counters[DIP_COUNTER_texels_fetched];
         row->stage_ms[DIP_COST_STAGE_shading] = 1e-6 * ns * (0.99 + 0.02 * random_share());
     }
     const DipCostFit fit = dip_cost_fit(&report);

@@ -318,7 +318,7 @@ static void further_times_join_those_of_the_report(void **state) {
     assert_true(timed_frames(added) >= FRAMES);
     assert_work(&cost, &quality, 0, report.rows[added].counters);
     const int again = ANTIALIASED, before = timed_frames(again);
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     memcpy(counters, report.rows[again].counters, sizeof counters);
     assert_true(dip_cost_time_more(&cost, &again, 1, 1, NULL));
     assert_true(timed_frames(again) >= before + FRAMES);

@@ -45,34 +45,34 @@ static void make_counters(const DipQuality *quality, double *counters) {
     const double groups = samples / dip_quality_samples_per_group(quality);
     const double probes = dip_quality_max_anisotropy(quality);
     const double fragments = 3e5 * (1.0 + 0.2 * (1.0 - 1.0 / samples));
-    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
-    counters[DIP_COST_COUNTER_passes] = 2.0;
-    counters[DIP_COST_COUNTER_tiles_drawn] = 80.0;
-    counters[DIP_COST_COUNTER_triangles_in] = 2e4;
-    counters[DIP_COST_COUNTER_triangles_drawn] = 8e3;
-    counters[DIP_COST_COUNTER_tile_triangles] = 1.5e4;
-    counters[DIP_COST_COUNTER_sub_blocks_tested] = 1e5;
-    counters[DIP_COST_COUNTER_sub_blocks_accepted] = 3e4;
-    counters[DIP_COST_COUNTER_fragments_clip_tested] = 4e4 * groups;
-    counters[DIP_COST_COUNTER_clip_sample_groups] = 900.0 * groups;
-    counters[DIP_COST_COUNTER_fragments_shaded] = fragments;
-    counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples;
-    counters[DIP_COST_COUNTER_pixels_resolved] = samples > 1.0 ? 5e4 : 0.0;
-    counters[DIP_COST_COUNTER_texture_probes] =
+    memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COUNTER_passes] = 2.0;
+    counters[DIP_COUNTER_tiles_drawn] = 80.0;
+    counters[DIP_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COUNTER_triangles_drawn] = 8e3;
+    counters[DIP_COUNTER_tile_triangles] = 1.5e4;
+    counters[DIP_COUNTER_sub_blocks_tested] = 1e5;
+    counters[DIP_COUNTER_sub_blocks_accepted] = 3e4;
+    counters[DIP_COUNTER_fragments_clip_tested] = 4e4 * groups;
+    counters[DIP_COUNTER_clip_sample_groups] = 900.0 * groups;
+    counters[DIP_COUNTER_fragments_shaded] = fragments;
+    counters[DIP_COUNTER_samples_shown] = 3e5 * samples;
+    counters[DIP_COUNTER_pixels_resolved] = samples > 1.0 ? 5e4 : 0.0;
+    counters[DIP_COUNTER_texture_probes] =
         fragments *
         (1.0 + 0.6 * log2(probes) - 0.01 * probes + (quality->step[DIP_SETTING_AAF] ? 0.05 : 0.0));
-    counters[DIP_COST_COUNTER_texels_fetched] = 6.5 * counters[DIP_COST_COUNTER_texture_probes];
+    counters[DIP_COUNTER_texels_fetched] = 6.5 * counters[DIP_COUNTER_texture_probes];
 }
 
 // Prices that the model does not have as they are: a fixed time, and work of several stages.
 static void make_times(DipCostRow *row, double noise) {
     const double *c = row->counters;
-    row->stage_ms[DIP_COST_STAGE_geometry] = 0.2 + 3e-5 * c[DIP_COST_COUNTER_triangles_in];
-    row->stage_ms[DIP_COST_STAGE_raster] = 0.1 + 1e-6 * c[DIP_COST_COUNTER_samples_shown] +
-                                           8e-6 * c[DIP_COST_COUNTER_fragments_clip_tested];
+    row->stage_ms[DIP_COST_STAGE_geometry] = 0.2 + 3e-5 * c[DIP_COUNTER_triangles_in];
+    row->stage_ms[DIP_COST_STAGE_raster] =
+        0.1 + 1e-6 * c[DIP_COUNTER_samples_shown] + 8e-6 * c[DIP_COUNTER_fragments_clip_tested];
     row->stage_ms[DIP_COST_STAGE_shading] =
-        4e-6 * c[DIP_COST_COUNTER_fragments_shaded] + 5e-7 * c[DIP_COST_COUNTER_texels_fetched];
-    row->stage_ms[DIP_COST_STAGE_resolve] = 5e-6 * c[DIP_COST_COUNTER_pixels_resolved];
+        4e-6 * c[DIP_COUNTER_fragments_shaded] + 5e-7 * c[DIP_COUNTER_texels_fetched];
+    row->stage_ms[DIP_COST_STAGE_resolve] = 5e-6 * c[DIP_COUNTER_pixels_resolved];
     row->stage_ms[DIP_COST_STAGE_rest] = 0.1;
     row->time.mean_ms.value = 0.0;
     for (int s = 0; s < DIP_COST_STAGE_COUNT; s++) {
@@ -175,8 +175,8 @@ static void posed_vertices_have_a_price(void **state) {
     for (int i = 0; i < COMBINATIONS; i++) {
         DipCostRow *row = &report.rows[i];
         rows[i] = i;
-        row->counters[DIP_COST_COUNTER_vertices_posed] = vertices;
-        report.predicted.list[i].counters[DIP_COST_COUNTER_vertices_posed] = vertices;
+        row->counters[DIP_COUNTER_vertices_posed] = vertices;
+        report.predicted.list[i].counters[DIP_COUNTER_vertices_posed] = vertices;
         row->stage_ms[DIP_COST_STAGE_geometry] += ms_per_vertex * vertices;
         row->time.mean_ms.value += ms_per_vertex * vertices;
         row->time.p95_ms = dip_estimate_unknown(1.3 * row->time.mean_ms.value);
@@ -184,10 +184,10 @@ static void posed_vertices_have_a_price(void **state) {
     train(&report, &times, &errors);
     assert_true(times.p90 < 1e-6);
     const DipCostModel model = dip_cost_model_fit(&report, rows, COMBINATIONS);
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     memcpy(counters, report.rows[0].counters, sizeof counters);
     const double before_ms = dip_cost_model_value(&model, counters, &report.rows[0].quality);
-    counters[DIP_COST_COUNTER_vertices_posed] += vertices;
+    counters[DIP_COUNTER_vertices_posed] += vertices;
     const double more_ms =
         dip_cost_model_value(&model, counters, &report.rows[0].quality) - before_ms;
     assert_true(more_ms >= 0.999 * ms_per_vertex * vertices);
@@ -212,7 +212,7 @@ static void averaging_parts_of_pixels_has_a_price(void **state) {
         const double bytes = 1e6 * scale * scale;
         memset(row->counters, 0, sizeof row->counters);
         memset(row->stage_ms, 0, sizeof row->stage_ms);
-        row->counters[DIP_COST_COUNTER_target_bytes] = bytes;
+        row->counters[DIP_COUNTER_target_bytes] = bytes;
         row->stage_ms[DIP_COST_STAGE_resolve] =
             0.1 + (scale > 1.0 ? 3e-6 * bytes : 0.0) + (scale > 1.0 && scale < 2.0 ? 4.0 : 0.0);
     }
@@ -313,7 +313,7 @@ static void counters_are_scaled_to_the_timed_frames(void **state) {
     DipCostReport report;
     make_report(&report, courtyard_flip, 0.0, 1);
     for (int i = 0; i < COMBINATIONS; i++) {
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             report.predicted.list[i].counters[c] *= 0.8; // The few frames show less.
         }
     }
@@ -321,7 +321,7 @@ static void counters_are_scaled_to_the_timed_frames(void **state) {
     report.predicted.list[90].row = 90;
     dip_cost_scale_counters(&report);
     for (int i = 0; i < COMBINATIONS; i++) {
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             const double truth = report.rows[i].counters[c];
             const bool seen = report.rows[3].counters[c] + report.rows[90].counters[c] > 0.0;
             assert_true(!seen ||
@@ -335,12 +335,11 @@ static void counters_are_scaled_to_the_timed_frames(void **state) {
 
 // Makes the work of a picture with `area` times the pixels. Its triangles are the same.
 static void scale_work(double *counters, double area) {
-    static const int grows[] = {
-        DIP_COST_COUNTER_sub_blocks_tested,     DIP_COST_COUNTER_sub_blocks_accepted,
-        DIP_COST_COUNTER_fragments_clip_tested, DIP_COST_COUNTER_clip_sample_groups,
-        DIP_COST_COUNTER_fragments_shaded,      DIP_COST_COUNTER_samples_shown,
-        DIP_COST_COUNTER_pixels_resolved,       DIP_COST_COUNTER_texture_probes,
-        DIP_COST_COUNTER_texels_fetched};
+    static const int grows[] = {DIP_COUNTER_sub_blocks_tested,     DIP_COUNTER_sub_blocks_accepted,
+                                DIP_COUNTER_fragments_clip_tested, DIP_COUNTER_clip_sample_groups,
+                                DIP_COUNTER_fragments_shaded,      DIP_COUNTER_samples_shown,
+                                DIP_COUNTER_pixels_resolved,       DIP_COUNTER_texture_probes,
+                                DIP_COUNTER_texels_fetched};
     for (size_t i = 0; i < sizeof grows / sizeof *grows; i++) {
         counters[grows[i]] *= area;
     }

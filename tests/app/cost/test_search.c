@@ -54,19 +54,19 @@ static void make_work(const DipQuality *quality, double *counters) {
     const double scale = dip_quality_scale(quality);
     const double samples = dip_quality_sample_count(quality);
     const double probes = 1.0 + 0.5 * step[DIP_SETTING_AF];
-    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
+    memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
     const double density = samples * scale * scale;
-    counters[DIP_COST_COUNTER_triangles_in] = 2e4;
-    counters[DIP_COST_COUNTER_triangles_drawn] = 2e4 * density / (1.0 + density);
-    counters[DIP_COST_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
-    counters[DIP_COST_COUNTER_fragments_shaded] = 3e5 * scale * scale;
-    counters[DIP_COST_COUNTER_fragments_clip_tested] =
+    counters[DIP_COUNTER_triangles_in] = 2e4;
+    counters[DIP_COUNTER_triangles_drawn] = 2e4 * density / (1.0 + density);
+    counters[DIP_COUNTER_samples_shown] = 3e5 * samples * scale * scale;
+    counters[DIP_COUNTER_fragments_shaded] = 3e5 * scale * scale;
+    counters[DIP_COUNTER_fragments_clip_tested] =
         4e4 * scale * scale * (1.0 + step[DIP_SETTING_AAA]);
-    counters[DIP_COST_COUNTER_texture_probes] = 3e5 * scale * scale * probes;
-    counters[DIP_COST_COUNTER_texels_fetched] =
+    counters[DIP_COUNTER_texture_probes] = 3e5 * scale * scale * probes;
+    counters[DIP_COUNTER_texels_fetched] =
         2e6 * scale * scale * probes * (1.0 + 0.1 * step[DIP_SETTING_MIPLOD]);
-    counters[DIP_COST_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
-    counters[DIP_COST_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
+    counters[DIP_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
+    counters[DIP_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
 }
 
 // Measures some of the listed combinations: those of one group, and every tenth other one.
@@ -162,7 +162,7 @@ static void the_search_finds_the_best_of_all(void **state) {
         assert_true(dip_cost_predict_others(&report, &models, NULL));
         double best[2] = {0.0}, found[2] = {0.0};
         for (int i = 0; i < count; i++) {
-            double counters[DIP_COST_COUNTER_COUNT], values[DIP_COST_PREDICTED];
+            double counters[DIP_COUNTER_COUNT], values[DIP_COST_PREDICTED];
             int distances[DIP_COST_MAX_ROWS];
             bool is_measured = false;
             for (int r = 0; r < measured; r++) {

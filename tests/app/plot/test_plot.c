@@ -58,19 +58,21 @@ static void plots_contain_names_and_marks(void **state) {
 }
 
 // A series that has only marks has no line, neither in the plot nor in the legend. Each mark has
-// its label.
-static void marks_without_a_line_have_labels(void **state) {
+// its number.
+static void marks_without_a_line_have_numbers(void **state) {
     (void)state;
     const double x[] = {1, 2, 4};
-    const char *const labels[] = {"p", "<q>", "r"};
-    const DipPlotSeries series = {
-        .name = "s", .x = x, .y = x, .count = 3, .marks_only = true, .labels = labels};
+    DipPlotSeries series = {.name = "s", .x = x, .y = x, .count = 3, .marks_only = true};
     const DipPlot plot = make(&series, 1, true);
+    written(&plot);
+    const int others = count_of(">3<"); // Such as the values on the axes.
+    series.numbered = true;
     written(&plot);
     assert_int_equal(count_of("<circle"), 3 + 1);
     assert_int_equal(count_of("<polyline"), 0);
     assert_int_equal(count_of("stroke-width=\"2\""), 0);
-    assert_int_equal(count_of(">p<") + count_of(">&lt;q&gt;<") + count_of(">r<"), 3);
+    assert_int_equal(count_of(">3<"), others + 1);
+    assert_int_equal(count_of("font-size=\"12\" text-anchor=\"end\""), 3);
 }
 
 // A page finds points by their rows, and browsers show their titles. The legend's marks have none.
@@ -137,7 +139,7 @@ static void a_missing_folder_is_an_error(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plots_contain_names_and_marks),
-        cmocka_unit_test(marks_without_a_line_have_labels),
+        cmocka_unit_test(marks_without_a_line_have_numbers),
         cmocka_unit_test(points_have_rows_and_titles),
         cmocka_unit_test(powers_lie_on_a_line),
         cmocka_unit_test(many_series_of_one_point_can_be_plotted),

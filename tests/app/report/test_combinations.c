@@ -52,11 +52,11 @@ static void make_true_work(const DipQuality *quality, double *counters) {
                              (6.0 - step[DIP_SETTING_MIPLOD]) * (1.5 - 0.5 * step[DIP_SETTING_GI]) *
                              (1.0 + 0.25 * step[DIP_SETTING_SCALE]) *
                              (1.0 + 0.125 * step[DIP_SETTING_UPSCALE]);
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] = 16.0 * (c % 3 ? sampling : 1.0) * (c % 2 ? filtering : 1.0);
     }
     // The filters draw their pixels in passes of their own, which add up.
-    counters[DIP_COST_COUNTER_pixels_filtered] = 0.0;
+    counters[DIP_COUNTER_pixels_filtered] = 0.0;
     counters[0] = step[DIP_SETTING_AF] ? 8.0 * step[DIP_SETTING_AF] : 0.0;
 }
 
@@ -64,18 +64,18 @@ static void make_true_work(const DipQuality *quality, double *counters) {
 // it.
 static void add_true_shadows(const DipQuality *quality, double *counters) {
     const double map = quality->step[DIP_SETTING_SHADOWS];
-    for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
-        counters[c] += c == DIP_COST_COUNTER_fragments_shaded ? 0.0 : 5.0 * map;
+    for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
+        counters[c] += c == DIP_COUNTER_fragments_shaded ? 0.0 : 5.0 * map;
     }
-    counters[DIP_COST_COUNTER_fragments_shadowed] =
-        map > 0.0 ? 0.75 * counters[DIP_COST_COUNTER_fragments_shaded] : 0.0;
+    counters[DIP_COUNTER_fragments_shadowed] =
+        map > 0.0 ? 0.75 * counters[DIP_COUNTER_fragments_shaded] : 0.0;
 }
 
 typedef struct Counted {
     DipQuality base;
     int most_groups;    // Combinations that differ in more groups were not counted...
     bool has_filtering; // ...but for those that have the base's antialiasing.
-    double counters[16][DIP_COST_COUNTER_COUNT];
+    double counters[16][DIP_COUNTER_COUNT];
     int next;
 } Counted;
 
@@ -108,18 +108,17 @@ static void composed_work_is_one(void **state) {
     count += dip_cost_list_combinations(&groups.base, few, list + count, (1 << 18) - count);
     assert_int_equal(count, 168480 + 5 * 5 * 4);
     for (int i = 0; i < count; i++) {
-        double truth[DIP_COST_COUNTER_COUNT], first[DIP_COST_COUNTER_COUNT],
-            second[DIP_COST_COUNTER_COUNT];
+        double truth[DIP_COUNTER_COUNT], first[DIP_COUNTER_COUNT], second[DIP_COUNTER_COUNT];
         make_true_work(&list[i], truth);
         add_true_shadows(&list[i], truth);
         assert_true(dip_work_compose(find_counted, &groups, &groups.base, &list[i], first));
         assert_true(dip_work_compose(find_counted, &parts, &parts.base, &list[i], second));
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             assert_true(fabs(first[c] - truth[c]) <= 1e-9 * truth[c]);
             assert_true(fabs(second[c] - truth[c]) <= 1e-9 * truth[c]);
         }
     }
-    double counters[DIP_COST_COUNTER_COUNT];
+    double counters[DIP_COUNTER_COUNT];
     DipQuality mip_colours = groups.base;
     mip_colours.step[DIP_SETTING_MIPDEBUG] = 1;
     assert_false(dip_work_compose(find_counted, &groups, &groups.base, &mip_colours, counters));
@@ -132,7 +131,7 @@ static void count_filtered(double *counters, const DipQuality *quality) {
     static const double drawn[] = {1.0 / 4.0, 100.0 / 289.0, 4.0 / 9.0, 100.0 / 169.0};
     const bool below = quality->step[DIP_SETTING_SCALE] < DIP_SCALE_1;
     const double part = below ? drawn[quality->step[DIP_SETTING_SCALE]] : 1.0;
-    counters[DIP_COST_COUNTER_pixels_filtered] =
+    counters[DIP_COUNTER_pixels_filtered] =
         (quality->step[DIP_SETTING_TAA] == DIP_TAA_HISTORY ? part : 0.0) +
         (quality->step[DIP_SETTING_POST] ? part : 0.0) + below +
         (quality->step[DIP_SETTING_SHARPEN] != 0);
@@ -141,7 +140,7 @@ static void count_filtered(double *counters, const DipQuality *quality) {
 // Combinations that differ from a base in one group of settings.
 typedef struct Alone {
     DipQuality base;
-    double counters[16][DIP_COST_COUNTER_COUNT];
+    double counters[16][DIP_COUNTER_COUNT];
     int next;
 } Alone;
 
@@ -164,12 +163,12 @@ static void composed_filters_write_the_pixels_of_their_pictures(void **state) {
     assert_int_equal(count, 2 * (4 + 4 * 3) * 3 * 4);
     for (int i = 0; i < count; i++) {
         for (int b = 0; b < count; b += 7) {
-            double truth[DIP_COST_COUNTER_COUNT] = {0.0}, found[DIP_COST_COUNTER_COUNT];
+            double truth[DIP_COUNTER_COUNT] = {0.0}, found[DIP_COUNTER_COUNT];
             Alone alone = {.base = list[b]};
             count_filtered(truth, &list[i]);
             assert_true(dip_work_compose(find_alone, &alone, &list[b], &list[i], found));
-            const double wanted = truth[DIP_COST_COUNTER_pixels_filtered];
-            assert_true(fabs(found[DIP_COST_COUNTER_pixels_filtered] - wanted) < 1e-9);
+            const double wanted = truth[DIP_COUNTER_pixels_filtered];
+            assert_true(fabs(found[DIP_COUNTER_pixels_filtered] - wanted) < 1e-9);
             assert_true(fabs(dip_cost_pixels_filtered(&list[i]) - wanted) < 1e-12);
         }
     }
@@ -182,17 +181,17 @@ static void make_fine_work(const DipQuality *quality, double *counters) {
     const double density = dip_quality_sample_count(quality) * scale * scale;
     const double others =
         (1.0 + quality->step[DIP_SETTING_AF]) * (1.0 + 0.25 * quality->step[DIP_SETTING_AAA]);
-    memset(counters, 0, DIP_COST_COUNTER_COUNT * sizeof *counters);
-    counters[DIP_COST_COUNTER_triangles_drawn] = 1000.0 * density / (1.0 + density) * others;
-    counters[DIP_COST_COUNTER_fragments_shaded] = 500.0 * scale * scale * others;
-    counters[DIP_COST_COUNTER_pixels_resolved] =
+    memset(counters, 0, DIP_COUNTER_COUNT * sizeof *counters);
+    counters[DIP_COUNTER_triangles_drawn] = 1000.0 * density / (1.0 + density) * others;
+    counters[DIP_COUNTER_fragments_shaded] = 500.0 * scale * scale * others;
+    counters[DIP_COUNTER_pixels_resolved] =
         dip_quality_sample_count(quality) > 1 ? 100.0 * scale * scale : 0.0;
 }
 
 typedef struct Fine {
     DipQuality base;
     bool has_corners; // pairs of AA and render scale were counted
-    double counters[16][DIP_COST_COUNTER_COUNT];
+    double counters[16][DIP_COUNTER_COUNT];
     int next;
 } Fine;
 
@@ -218,14 +217,14 @@ static void antialiasing_and_render_scale_are_composed_together(void **state) {
     double worst = 0.0;
     assert_true(count > 400 && count <= 1024);
     for (int i = 0; i < count; i++) {
-        double truth[DIP_COST_COUNTER_COUNT], found[DIP_COST_COUNTER_COUNT];
+        double truth[DIP_COUNTER_COUNT], found[DIP_COUNTER_COUNT];
         make_fine_work(&list[i], truth);
         assert_true(dip_work_compose(find_fine, &fine, &fine.base, &list[i], found));
-        for (int c = 0; c < DIP_COST_COUNTER_COUNT; c++) {
+        for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             assert_true(fabs(found[c] - truth[c]) <= 1e-9 * truth[c]);
         }
         assert_true(dip_work_compose(find_fine, &alone, &alone.base, &list[i], found));
-        const int drawn = DIP_COST_COUNTER_triangles_drawn;
+        const int drawn = DIP_COUNTER_triangles_drawn;
         worst = fmax(worst, fabs(found[drawn] / truth[drawn] - 1.0));
     }
     assert_true(worst > 0.4);

@@ -114,12 +114,12 @@ static void objects_in_empty_space_need_a_ground(void **state) {
     assert_false(is_missing(&(Scene){.def = {.near_m = 0.1f}}));
 }
 
-static int shade_at(const DipGround *ground, double x, double z) {
-    const float *low = ground->positions[3];
-    const float *high = ground->positions[1];
+static int shade_at(const DipAddedSurface *ground, double x, double z) {
+    const float *low = ground->positions + 9;
+    const float *high = ground->positions + 3;
     const int column = (int)((x - low[0]) / (high[0] - low[0]) * GRID);
     const int row = (int)((z - low[2]) / (high[2] - low[2]) * GRID);
-    return ground->shade_rgba8[4 * (GRID * row + column)];
+    return ground->rgba8[4 * (GRID * row + column)];
 }
 
 // The shade is darkest below the box, fades with the distance and is gone at the border. A box at
@@ -129,7 +129,7 @@ static void the_shade_lies_below_the_model(void **state) {
     static Scene scene;
     add_box(&scene, -1, 0, -0.5f, 1, 1, 0.5f);
     const DipExtent extent = dip_extent_of(&scene.def);
-    DipGround *ground = dip_ground_create(&scene.def, &extent, NULL);
+    DipAddedSurface *ground = dip_ground_create(&scene.def, &extent, NULL);
     assert_non_null(ground);
     int last = shade_at(ground, 0, 0);
     assert_true(last < 90);
@@ -140,7 +140,7 @@ static void the_shade_lies_below_the_model(void **state) {
     }
     assert_true(shade_at(ground, 1.05, 0) < 190);
     for (int i = 0; i < GRID; i++) {
-        const uint8_t *s = ground->shade_rgba8;
+        const uint8_t *s = ground->rgba8;
         assert_int_equal(s[4 * i], 255);
         assert_int_equal(s[4 * (GRID * (GRID - 1) + i)], 255);
         assert_int_equal(s[4 * (GRID * i)], 255);
@@ -148,9 +148,9 @@ static void the_shade_lies_below_the_model(void **state) {
     }
     for (int i = 0; i < GRID * GRID; i++) {
         const int mirrored = GRID * (i / GRID) + GRID - 1 - i % GRID;
-        assert_in_range(ground->shade_rgba8[4 * i] - ground->shade_rgba8[4 * mirrored] + 2, 0, 4);
+        assert_in_range(ground->rgba8[4 * i] - ground->rgba8[4 * mirrored] + 2, 0, 4);
     }
-    dip_ground_destroy(&ground);
+    dip_added_surface_destroy(&ground);
     assert_null(ground);
 }
 
@@ -164,12 +164,12 @@ static void height_makes_the_shade_faint(void **state) {
         add_box(&scene, -0.05f, 0, -0.05f, 0.05f, 1.5f, 0.05f);
         add_box(&scene, 0.2f, 0.2f * (float)step, -0.5f, 1.2f, 1.5f, 0.5f);
         const DipExtent extent = dip_extent_of(&scene.def);
-        DipGround *ground = dip_ground_create(&scene.def, &extent, NULL);
+        DipAddedSurface *ground = dip_ground_create(&scene.def, &extent, NULL);
         assert_non_null(ground);
         const int shade = shade_at(ground, 0.7, 0);
         assert_true(shade > last);
         last = shade;
-        dip_ground_destroy(&ground);
+        dip_added_surface_destroy(&ground);
     }
 }
 
@@ -180,7 +180,7 @@ static void the_scene_keeps_its_parts(void **state) {
     static Scene scene;
     add_box(&scene, -1, 3, -1, 1, 4, 1);
     const DipExtent extent = dip_extent_of(&scene.def);
-    DipGround *ground = dip_ground_create(&scene.def, &extent, NULL);
+    DipAddedSurface *ground = dip_ground_create(&scene.def, &extent, NULL);
     assert_non_null(ground);
     assert_int_equal(ground->def.object_count, 2);
     assert_memory_equal(ground->def.objects, scene.objects, sizeof *scene.objects);
@@ -196,7 +196,7 @@ static void the_scene_keeps_its_parts(void **state) {
     DipScene *made = dip_scene_create(&ground->def, NULL, &err);
     assert_non_null(made);
     dip_scene_destroy(&made);
-    dip_ground_destroy(&ground);
+    dip_added_surface_destroy(&ground);
 }
 
 int main(void) {
