@@ -23,7 +23,7 @@ typedef struct Bins {
 struct DipConvergence {
     const DipReference *reference;
     DipPose pose;
-    DipRefShot shot; // its pose is the copy above
+    DipRefShot shot;          // its pose is the copy above
     DipConvergence *mirrored; // the same frame of the mirrored scene, which water shows; or NULL
     DipRefBackdrop *backdrop; // what rough glass shows blurred; NULL: it shows it sharp
     DipRefTriangles triangles;

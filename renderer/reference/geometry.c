@@ -158,7 +158,7 @@ static void light_vertex(VertexLight kind, const DipRefLit *lit, const double no
         diffuse[i] = kind == LIGHT_FIXED ? dip_reference_light(normal, 1.0) : 1.0;
     }
     if (kind == LIGHT_OF_SCENE) {
-        dip_reference_lights(lit, place, normal, 1.0, diffuse, highlight, direct);
+        dip_reference_lights(lit, place, place, normal, 1.0, diffuse, highlight, direct);
     }
     for (int i = 0; i < 3; i++) {
         DipWide *colour = &vertex->varyings[DIP_REF_RED + i];

@@ -51,8 +51,9 @@ double dip_reference_arrival(const DipLightDef *light, const double eye[3], cons
     return light->kind == DIP_LIGHT_SPOT ? share * find_cone(light, to_light) : share;
 }
 
-void dip_reference_lights(const DipRefLit *lit, const double place[3], const double normal[3],
-                          double sunlit, double diffuse[3], double highlight[3], double direct[3]) {
+void dip_reference_lights(const DipRefLit *lit, const double place[3], const double ray[3],
+                          const double normal[3], double sunlit, double diffuse[3],
+                          double highlight[3], double direct[3]) {
     const DipMaterialDef *material = lit->material;
     const double exponent = floor(material->shininess + 0.5);
     const int shadowed = dip_reference_shadow_light(lit->shadows);
@@ -60,7 +61,7 @@ void dip_reference_lights(const DipRefLit *lit, const double place[3], const dou
     for (int c = 0; c < 3; c++) {
         diffuse[c] = lit->lighting->ambient_lin[c] + normal[1] * lit->lighting->sky_lin[c];
         highlight[c] = 0.0;
-        to_eye[c] = -place[c];
+        to_eye[c] = -ray[c];
     }
     normalise(to_eye);
     for (int l = 0; l < lit->lighting->light_count; l++) {

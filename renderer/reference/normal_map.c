@@ -108,10 +108,10 @@ static double map_normal(const DipRefVaryings *varyings, const double texel[3], 
     return length;
 }
 
-static double find_highlight(double roughness, double length, const double place[3],
+static double find_highlight(double roughness, double length, const double ray[3],
                              const double mapped[3], double sunlit) {
     double sun[3] = {dip_reference_sun[0], dip_reference_sun[1], dip_reference_sun[2]};
-    double half[3] = {-place[0], -place[1], -place[2]};
+    double half[3] = {-ray[0], -ray[1], -ray[2]};
     normalise(sun);
     normalise(half);
     for (int i = 0; i < 3; i++) {
@@ -143,6 +143,8 @@ void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryi
                                const double texel[3], const double light[3], double rgb[3]) {
     double normal[3];
     double mapped[3];
+    double ray[3];
+    dip_reference_ray(varyings, ray);
     dip_reference_normal(varyings, NULL, 1.0, normal);
     const double length = dip_reference_normal(varyings, texel, 1.0, mapped);
     double sunlit = 1.0;
@@ -153,8 +155,7 @@ void dip_reference_light_bumps(const DipMaterialDef *material, const DipRefVaryi
         ratio = dip_reference_light(mapped, sunlit) / dip_reference_light(normal, sunlit);
         ratio = fmin(fmax(ratio, 0.25), 2.5);
     }
-    const double shine =
-        find_highlight(material->roughness, length, &varyings->value[DIP_REF_X], mapped, sunlit);
+    const double shine = find_highlight(material->roughness, length, ray, mapped, sunlit);
     for (int c = 0; c < 3; c++) {
         rgb[c] = rgb[c] * (light ? light[c] * ratio : dip_reference_light(mapped, 1.0)) + shine;
     }

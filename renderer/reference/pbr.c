@@ -416,11 +416,13 @@ static void begin_surface(const DipRefTriangle *triangle, const DipRefFilter *fi
     surface->roughness = read_maps(filter, varyings, surface);
     *lobe = (Lobe){.roughness = surface->roughness};
     const double length = find_normals(triangle, varyings, texel, mesh, lobe->normal);
+    double ray[3];
+    dip_reference_ray(varyings, ray);
     for (int i = 0; i < 3; i++) {
         surface->place[i] = varyings->value[DIP_REF_X + i];
         surface->base[i] = base[i];
         surface->f0_greatest = fmax(surface->f0_greatest, pbr->f0_lin[i]);
-        lobe->to_eye[i] = -surface->place[i];
+        lobe->to_eye[i] = -ray[i];
     }
     surface->f90 = pbr->f90;
     surface->transmission = triangle->blended ? (double)pbr->transmission : 0.0;

@@ -34,6 +34,7 @@ void dip_reference_interpolate(const DipRefPosition *place, int first, int count
     }
     out->depth_change = (fabs(q_dx) + fabs(q_dy)) / fabs(q);
     out->triangle = place->triangle;
+    out->beyond_horizon = q * place->triangle->area < 0.0;
     for (int k = first; k < first + count; k++) {
         const double a = v[0].varyings[k], b = v[1].varyings[k], c = v[2].varyings[k];
         const double value = (weights[0] * a + weights[1] * b + weights[2] * c) / q;
@@ -44,6 +45,13 @@ void dip_reference_interpolate(const DipRefPosition *place, int first, int count
             out->ddy[k] =
                 (weights_dy[0] * a + weights_dy[1] * b + weights_dy[2] * c - value * q_dy) / q;
         }
+    }
+}
+
+void dip_reference_ray(const DipRefVaryings *varyings, double ray[3]) {
+    for (int i = 0; i < 3; i++) {
+        const double place = varyings->value[DIP_REF_X + i];
+        ray[i] = varyings->beyond_horizon ? -place : place;
     }
 }
 
@@ -114,10 +122,12 @@ static void add_lights(const DipRefTriangle *triangle, const DipRefVaryings *var
     double diffuse[3] = {1.0, 1.0, 1.0}; // At vertices, RED to BLUE have it already.
     double highlight[3];
     double normal[3];
+    double ray[3];
     if (triangle->lit.fragments) {
         dip_reference_normal(varyings, texel, 1.0, normal);
-        dip_reference_lights(&triangle->lit, &varyings->value[DIP_REF_X], normal, sunlit, diffuse,
-                             highlight, NULL);
+        dip_reference_ray(varyings, ray);
+        dip_reference_lights(&triangle->lit, &varyings->value[DIP_REF_X], ray, normal, sunlit,
+                             diffuse, highlight, NULL);
     }
     for (int c = 0; c < 3; c++) {
         const double added = triangle->lit.fragments

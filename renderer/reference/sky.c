@@ -62,8 +62,9 @@ void dip_reference_shade_sky(const DipRefTriangle *triangle, const DipRefFilter 
                              const DipRefVaryings *varyings, double rgb[3]) {
     const DipSkyDef *sky = triangle->sky;
     const double density = find_density(triangle, filter, varyings);
-    const double *ray = &varyings->value[DIP_REF_X];
     const double *sun = dip_reference_sun;
+    double ray[3];
+    dip_reference_ray(varyings, ray);
     const double length = sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
     const double sun_length = sqrt(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
     const double to_sun =

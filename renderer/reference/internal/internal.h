@@ -206,12 +206,14 @@ void dip_reference_shade(const DipRefPosition *place, const DipRefFilter *filter
 extern const double dip_reference_sun[3]; // direction to the sun, not normalised
 double dip_reference_light(const double normal[3], double sunlit);
 
-// Computes the scene's lights on a surface. place: position relative to the eye. normal: unit
-// normal. diffuse is the factor of the surface's own colour, and highlight is added. The light with
-// shadows is multiplied by `sunlit`, the part of it that arrives. If direct is not NULL, it
-// receives the diffuse part of this light, which `diffuse` then lacks.
-void dip_reference_lights(const DipRefLit *lit, const double place[3], const double normal[3],
-                          double sunlit, double diffuse[3], double highlight[3], double direct[3]);
+// Computes the scene's lights on a surface. place: position relative to the eye. ray: direction
+// from the eye. normal: unit normal. diffuse is the factor of the surface's own colour, and
+// highlight is added. The light with shadows is multiplied by `sunlit`, the part of it that
+// arrives. If direct is not NULL, it receives the diffuse part of this light, which `diffuse` then
+// lacks.
+void dip_reference_lights(const DipRefLit *lit, const double place[3], const double ray[3],
+                          const double normal[3], double sunlit, double diffuse[3],
+                          double highlight[3], double direct[3]);
 
 // shadows.c: collects what casts shadows. *shadows is NULL if the scene has no directional light,
 // or if no surface casts shadows.
@@ -246,7 +248,12 @@ typedef struct DipRefVaryings {
     double ddy[DIP_REF_DERIVED];
     double depth_change; // |dw/dx| + |dw/dy|, divided by w; w is the distance along the view axis
     const DipRefTriangle *triangle;
+    bool beyond_horizon; // the triangle's plane meets the view ray behind the eye, not ahead
 } DipRefVaryings;
+
+// Returns the direction from the eye through a position, of any length. A triangle may be shaded at
+// a position outside of it where its plane meets the view ray behind the eye.
+void dip_reference_ray(const DipRefVaryings *varyings, double ray[3]);
 
 // Finds the unit normal at a position: the interpolated normal, or the normal map's if texel is not
 // NULL. scale multiplies x and y of the map's normal. Returns the length of the normal map's
