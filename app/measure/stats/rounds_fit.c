@@ -491,7 +491,6 @@ static void close_work(DipTimesWork *w) {
     free(w->sorted);
     free(w->first_of);
     free(w->cells);
-    free(w->moments);
     free(w->pairs);
     free(w->visits);
     free(w->level);
@@ -511,15 +510,14 @@ static bool open_work(DipTimesWork *w, const DipTimes *times, int part, DipTimes
         .sorted = malloc(count * sizeof(DipTimed *)),
         .first_of = malloc((2 * (size_t)times->subjects + 1) * sizeof(int)),
         .cells = malloc(count * sizeof(DipTimesCell)),
-        .moments = malloc(count * sizeof(DipTimesMoment)),
         .pairs = malloc(count * sizeof(DipTimesPair)),
         .visits = malloc(2 * count * sizeof(int)),
         .level = malloc((sets * (frames + 1) + count + all + 2 * frames) * sizeof(double)),
         .logs = malloc(4 * all * sizeof(double)),
         .means = malloc(MOST_VISITS * (MOST_VISITS + 1) / 2 * sizeof(double)),
     };
-    if (!w->sorted || !w->first_of || !w->cells || !w->moments || !w->pairs || !w->visits ||
-        !w->level || !w->logs || !w->means) {
+    if (!w->sorted || !w->first_of || !w->cells || !w->pairs || !w->visits || !w->level ||
+        !w->logs || !w->means) {
         return false;
     }
     w->members = w->first_of + times->subjects + 1;

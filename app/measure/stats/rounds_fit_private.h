@@ -30,23 +30,14 @@ typedef struct DipTimesPair {
     double log_ratio; // Logarithm of the subject's time / the base's time.
 } DipTimesPair;
 
-// The base's time of one frame in one moment (DipTimesMoment).
+// A time of a base's frame.
 typedef struct DipTimesCell {
     int frame;
-    int moment;
-    int visit;
+    int visit; // Equal for the frames of one visit.
     int unit;
     double log_ms;
-    double weight; // Weight in the fit; grows with the number of visits.
-    double trust;  // Further weight, 0 to 1, by how well the time agrees with the fit.
+    double trust; // Weight in the fit, 0 to 1, by how well the time agrees with the fit.
 } DipTimesCell;
-
-// A moment is the set of all visits of the base in one round whose first frame on the path is the
-// same.
-typedef struct DipTimesMoment {
-    int round;       // Index of the round among the rounds of all starts.
-    int first_frame; // The visits' first frame on the path.
-} DipTimesMoment;
 
 // What the fit finds for a base. `variance` and `pooled` say how much the logarithm of each
 // DipTimesValue varies from unit to unit. The part of this variance that moves all subjects of the
@@ -106,10 +97,9 @@ typedef struct DipTimesWork {
                      // of the fitted levels, which smoothing makes smaller.
     double spread;   // As in DipTimesSubject.
     double doubt;    // As in DipTimesSubject.
-    DipTimesMoment *moments; // [count]
-    int moment_count, base_visits;
-    double *speed;                           // [count]: speed of each moment (rounds_levels.c).
-    double *weights;                         // [the greater of count and frames]: scratch.
+    int base_visits; // Number of visits of the base.
+    double *speed;   // [count]: speed of each visit (rounds_levels.c).
+    double *weights; // [the greater of count and frames]: scratch.
     int *visits, *pair_frames;               // [count]: visits and frames of the pairs in use.
     double *logs, *smooth, *rest, *of_visit; // [the greater of count and frames]: scratch.
     double *means;                           // Scratch for Hodges and Lehmann's estimate.

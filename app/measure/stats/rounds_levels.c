@@ -1,7 +1,7 @@
 // Fits the levels of a base. The level of a frame is the logarithm of the time that the frame takes
-// at the machine's usual speed. The speed of a moment, of a visit or of a round is here the
-// logarithm of the factor by which its frames take longer than their levels say.
-// rounds_fit_private.h explains units, moments and cells.
+// at the machine's usual speed. The speed of a visit or of a round is here the logarithm of the
+// factor by which its frames take longer than their levels say. rounds_fit_private.h explains units
+// and cells.
 #include "app/measure/stats/rounds_fit_private.h"
 
 #include "app/measure/stats/estimate.h"
@@ -14,102 +14,30 @@ enum {
     SPEED_GROUPS = 4 // If there is one start, at most this many groups of rounds are compared.
 };
 
-static int compare_cells(const void *a, const void *b) {
-    const DipTimesCell *x = a, *y = b;
-    return x->moment != y->moment ? x->moment - y->moment
-           : x->frame != y->frame ? x->frame - y->frame
-                                  : x->visit - y->visit;
-}
-
-// Lists the base's times as cells of one time each and returns their number. Leaves out disturbed
-// times, unless most are disturbed.
-static int list_base_times(DipTimesWork *w, int base) {
+// Lists the base's times as cells. Leaves out disturbed times, unless most are disturbed.
+static void list_base_times(DipTimesWork *w, int base) {
     const DipTimes *times = w->times;
     const int from = w->first_of[base], end = w->first_of[base + 1];
-    int disturbed = 0, count = 0, visit = -1;
+    int disturbed = 0;
     for (int i = from; i < end; i++) {
         disturbed += w->sorted[i]->wait > DIP_TIMED_MOST_WAIT;
     }
     const bool all = 2 * disturbed > end - from;
     const DipTimed *last = NULL;
-    int moment = 0;
-    w->moment_count = 0;
+    w->cell_count = w->base_visits = 0;
     for (int i = from; i < end; i++) {
         const DipTimed *t = w->sorted[i];
-        const int round = dip_times_round(times, t);
-        if (!last || !dip_times_same_visit(last, t)) {
-            visit++;
-            moment = w->moment_count;
-            while (moment > 0 && w->moments[moment - 1].round == round &&
-                   w->moments[moment - 1].first_frame != t->frame) {
-                moment--;
-            }
-            if (moment > 0 && w->moments[moment - 1].round == round) {
-                moment--;
-            } else {
-                moment = w->moment_count++;
-                w->moments[moment] = (DipTimesMoment){round, t->frame};
-            }
-        }
+        w->base_visits += !last || !dip_times_same_visit(last, t);
         last = t;
         if (t->ms > 0.0 && (all || t->wait <= DIP_TIMED_MOST_WAIT)) {
-            w->cells[count++] = (DipTimesCell){t->frame,   moment, visit, dip_times_unit(times, t),
-                                               log(t->ms), 1.0,    1.0};
+            w->cells[w->cell_count++] = (DipTimesCell){t->frame, w->base_visits - 1,
+                                                       dip_times_unit(times, t), log(t->ms), 1.0};
         }
-    }
-    w->base_visits = visit + 1;
-    return count;
-}
-
-// Returns the index after the last cell that has the same frame and moment as cell `first`.
-static int end_of_cell(const DipTimesWork *w, int first, int count) {
-    int end = first;
-    while (end < count && w->cells[end].moment == w->cells[first].moment &&
-           w->cells[end].frame == w->cells[first].frame) {
-        end++;
-    }
-    return end;
-}
-
-// Joins all times of one frame in one moment to one cell. Its time is the median of these times,
-// after the speed of each time's visit was subtracted from it.
-static void join_cells(DipTimesWork *w, int count) {
-    double *speed = w->rest;   // [visit]
-    double *sum = w->of_visit; // [visit]
-    int *frames = w->visits;   // [visit]
-    memset(speed, 0, (size_t)w->base_visits * sizeof *speed);
-    for (int pass = 0; pass < 3; pass++) {
-        memset(sum, 0, (size_t)w->base_visits * sizeof *sum);
-        memset(frames, 0, (size_t)w->base_visits * sizeof *frames);
-        w->cell_count = 0;
-        for (int first = 0, end; first < count; first = end) {
-            end = end_of_cell(w, first, count);
-            for (int i = first; i < end; i++) {
-                w->logs[i - first] = w->cells[i].log_ms - speed[w->cells[i].visit];
-            }
-            const double middle = dip_median(w->logs, end - first);
-            for (int i = first; i < end; i++) {
-                sum[w->cells[i].visit] += w->cells[i].log_ms - middle;
-                frames[w->cells[i].visit]++;
-            }
-            w->smooth[w->cell_count++] = middle;
-        }
-        for (int v = 0; v < w->base_visits; v++) {
-            speed[v] = frames[v] > 0 ? sum[v] / frames[v] : 0.0;
-        }
-    }
-    for (int first = 0, end, cell = 0; first < count; first = end, cell++) {
-        end = end_of_cell(w, first, count);
-        w->cells[cell] = w->cells[first];
-        w->cells[cell].log_ms = w->smooth[cell];
-        // More visits make only the differences between a moment's frames better known, not the
-        // moment's speed. The weight therefore grows less than the number of visits.
-        w->cells[cell].weight = (end - first) / (1.0 + 0.2 * (end - first - 1));
     }
 }
 
 static double rest_of(const DipTimesWork *w, const DipTimesCell *cell, const double *level) {
-    return cell->log_ms - level[cell->frame] - w->speed[cell->moment];
+    return cell->log_ms - level[cell->frame] - w->speed[cell->visit];
 }
 
 // Sets the trust of each cell by its distance from the fit, with Tukey's biweight: 1 at distance 0,
@@ -118,20 +46,19 @@ static void trust_cells(DipTimesWork *w, int left_out, const double *level) {
     int count = 0;
     for (int i = 0; i < w->cell_count; i++) {
         if (w->cells[i].unit != left_out) {
-            w->logs[count++] = fabs(rest_of(w, &w->cells[i], level)) * sqrt(w->cells[i].weight);
+            w->logs[count++] = fabs(rest_of(w, &w->cells[i], level));
         }
     }
     const double typical = count > 0 ? dip_median(w->logs, count) : 0.0;
     for (int i = 0; i < w->cell_count; i++) {
-        const double distance =
-            rest_of(w, &w->cells[i], level) * sqrt(w->cells[i].weight) / (6.0 * typical + 1e-9);
+        const double distance = rest_of(w, &w->cells[i], level) / (6.0 * typical + 1e-9);
         const double close = 1.0 - fmin(distance * distance, 1.0);
         w->cells[i].trust = close * close;
     }
 }
 
 // If is_level is true, sets the levels of frames to weighted means of log ms - speed. Otherwise
-// sets the speeds of moments to weighted means of log ms - level. `other` holds the values that are
+// sets the speeds of visits to weighted means of log ms - level. `other` holds the values that are
 // subtracted. Leaves out the cells of the unit `left_out`.
 static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const double *other,
                      bool is_level) {
@@ -140,9 +67,9 @@ static void fit_side(DipTimesWork *w, int left_out, double *to, int count, const
     for (int i = 0; i < w->cell_count; i++) {
         const DipTimesCell *cell = &w->cells[i];
         if (cell->unit != left_out) {
-            const int at = is_level ? cell->frame : cell->moment;
-            const double weight = cell->weight * (cell->trust + 1e-3);
-            to[at] += weight * (cell->log_ms - other[is_level ? cell->moment : cell->frame]);
+            const int at = is_level ? cell->frame : cell->visit;
+            const double weight = cell->trust + 1e-3;
+            to[at] += weight * (cell->log_ms - other[is_level ? cell->visit : cell->frame]);
             w->weights[at] += weight;
         }
     }
@@ -168,17 +95,17 @@ void dip_times_fill_gaps(double *values, int count) {
     }
 }
 
-// Fits log ms = level(frame) + speed(moment) + rest, without the cells of the unit `left_out`, or
+// Fits log ms = level(frame) + speed(visit) + rest, without the cells of the unit `left_out`, or
 // with all cells if `left_out` is -1. Levels of frames that have no cell are NAN.
 static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     const int frames = w->times->frames;
-    memset(w->speed, 0, (size_t)w->moment_count * sizeof *w->speed);
+    memset(w->speed, 0, (size_t)w->base_visits * sizeof *w->speed);
     for (int i = 0; i < w->cell_count; i++) {
         w->cells[i].trust = 1.0;
     }
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         fit_side(w, left_out, level, frames, w->speed, true);
-        fit_side(w, left_out, w->speed, w->moment_count, level, false);
+        fit_side(w, left_out, w->speed, w->base_visits, level, false);
         if (sweep % 10 == 9) {
             trust_cells(w, left_out, level);
         }
@@ -326,9 +253,7 @@ static void judge_speeds(DipTimesWork *w, int b) {
 }
 
 void dip_times_fit_levels(DipTimesWork *w, int base) {
-    const int count = list_base_times(w, base);
-    qsort(w->cells, (size_t)count, sizeof *w->cells, compare_cells);
-    join_cells(w, count);
+    list_base_times(w, base);
     const int frames = w->times->frames, units = w->fit->units;
     for (int unit = -1; unit < units; unit++) {
         fit_levels(w, unit, w->level + (unit + 1) * frames);

@@ -496,6 +496,48 @@ static void a_log_without_noise_is_exact(void **state) {
     dip_times_fit_free(&fit);
 }
 
+// The visits of a base in a round draw the same frames, and each draws other frames besides, as the
+// driver (driver.h) deals them. Each visit has a speed of its own and single frames have no noise,
+// so the times along the path are exact but for a common factor.
+static void visits_that_draw_other_frames_besides_are_told_apart(void **state) {
+    (void)state;
+    static DipTimed list[COPIES * BLOCKS * FRAMES];
+    NoiseRandom random = {5};
+    int round_of[COPIES * FRAMES], count = 0;
+    double curve[FRAMES];
+    walk(&random, curve);
+    assert_true(dip_rounds_deal(FRAMES, ROUNDS, COPIES, 7, round_of, NULL));
+    for (int visit = 0; visit < ROUNDS * BLOCKS; visit++) {
+        const double speed = 0.1 * noise_normal(&random);
+        int others = 0;
+        for (int i = 0; i < COPIES * FRAMES; i++) {
+            const bool mine = i < FRAMES || others % BLOCKS == visit % BLOCKS;
+            if (round_of[i] != visit / BLOCKS) {
+                continue;
+            }
+            others += i >= FRAMES;
+            if (mine) {
+                list[count++] = (DipTimed){.start = visit / BLOCKS / 4,
+                                           .round = visit / BLOCKS % 4,
+                                           .block = visit % BLOCKS,
+                                           .frame = i % FRAMES,
+                                           .ms = exp(0.2 * curve[i % FRAMES] + speed)};
+            }
+        }
+    }
+    const DipTimes times = {list, count, 1, ROUNDS / 4, 4, FRAMES, base_of, false};
+    DipTimesFit *fit = dip_times_fit(&times, NULL);
+    assert_non_null(fit);
+    double least = INFINITY, most = -INFINITY;
+    for (int f = 0; f < FRAMES; f++) {
+        const double off = log(dip_times_frames(fit, 0)[f]) - 0.2 * curve[f];
+        least = fmin(least, off);
+        most = fmax(most, off);
+    }
+    assert_true(most - least < 1e-3);
+    dip_times_fit_free(&fit);
+}
+
 static void what_is_not_known_has_no_interval(void **state) {
     (void)state;
     DipTimed list[] = {{.subject = 0, .ms = 2.0}, {.subject = 1, .ms = 3.0}};
@@ -643,6 +685,7 @@ int main(void) {
         cmocka_unit_test(noise_does_not_hide_the_path),
         cmocka_unit_test(a_wobble_of_rounds_does_not_move_p95),
         cmocka_unit_test(a_log_without_noise_is_exact),
+        cmocka_unit_test(visits_that_draw_other_frames_besides_are_told_apart),
         cmocka_unit_test(what_is_not_known_has_no_interval),
         cmocka_unit_test(disturbed_frames_take_no_part),
         cmocka_unit_test(frames_of_every_round_keep_their_ratio),
