@@ -1,6 +1,8 @@
 // Turns what actions and drags ask for into movements of the free camera.
 #include "app/preview/state/pilot.h"
 
+#include "app/preview/state/state_private.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -88,21 +90,25 @@ void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns) {
     }
 }
 
-void dip_pilot_choose_end(DipPreviewState *state, int step, int64_t now_ns) {
+void dip_pilot_choose_end(const DipAct *act) {
     static const char *const texts[DIP_CAMPATH_END_COUNT] = {[DIP_CAMPATH_END_loop] = "loop",
                                                              [DIP_CAMPATH_END_once] = "play once",
                                                              [DIP_CAMPATH_END_back] =
                                                                  "there and back"};
+    DipPreviewState *state = act->state;
     DipCamTrack *track = state->track;
+    const int step = act->reverse ? -act->argument : act->argument;
     const int64_t path_ns = dip_preview_path_ns(state);
     const int end = ((int)track->end + step + DIP_CAMPATH_END_COUNT) % DIP_CAMPATH_END_COUNT;
     dip_camtrack_set_end(track, (DipCamPathEnd)end);
     dip_camtrack_restart(track, state->play_ns - path_ns); // The camera stays where it is.
-    dip_preview_notice(state, now_ns, "At the end of paths: %s", texts[end]);
+    dip_preview_notice(state, act->now_ns, "At the end of paths: %s", texts[end]);
     ++state->scene_changes;
 }
 
-void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
+void dip_pilot_edit_path(const DipAct *act) {
+    DipPreviewState *state = act->state;
+    const DipPathEdit edit = (DipPathEdit)act->argument;
     if (!state->editor) {
         return;
     }
@@ -111,9 +117,9 @@ void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_n
     const bool moves =
         edit == DIP_PATH_EDIT_NEXT || edit == DIP_PATH_EDIT_BEFORE || edit == DIP_PATH_EDIT_FLY;
     if (done && moves) {
-        dip_pilot_make_free(state, now_ns);
+        dip_pilot_make_free(state, act->now_ns);
     }
-    dip_preview_notice(state, now_ns, "%s", state->editor->said);
+    dip_preview_notice(state, act->now_ns, "%s", state->editor->said);
 }
 
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) {
@@ -128,19 +134,21 @@ void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_
     state->flight.forward_steps += forward;
 }
 
-void dip_pilot_reset(DipPreviewState *state, int64_t now_ns) {
+void dip_pilot_reset(const DipAct *act) {
+    DipPreviewState *state = act->state;
     state->flight.reset = state->manual;
-    dip_preview_notice(state, now_ns,
+    dip_preview_notice(state, act->now_ns,
                        state->manual
                            ? "The free camera has the pose of its path; C follows the path"
                            : "The camera follows its path");
 }
 
-void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns) {
+void dip_pilot_orbit(const DipAct *act) {
+    DipPreviewState *state = act->state;
     state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;
-    dip_pilot_make_free(state, now_ns);
+    dip_pilot_make_free(state, act->now_ns);
     state->flight.knows_centre = false;
-    say_camera(state, now_ns);
+    say_camera(state, act->now_ns);
 }
 
 // --- the loop's turn -----------------------------------------------------------------------------
