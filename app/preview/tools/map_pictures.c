@@ -2,6 +2,7 @@
 // is missing or not yet final, and finds sizes of mip levels in the map of mip colours.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tools/maps.h"
+#include "renderer/scene/mip_debug.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -220,14 +221,9 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
 
 // --- mip levels ----------------------------------------------------------------------------------
 
-// The colours of mip debugging (renderer/scene/resources/mip_debug.c), in sRGB.
-static const DipColour mip_colours[DIP_MIP_DEBUG_LEVELS] = {
-    {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
-    {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},
-};
-
 DipColour dip_map_mip_colour(int index) {
-    return mip_colours[index];
+    const uint8_t *rgba8 = dip_mip_debug_colour(index);
+    return (DipColour){rgba8[0], rgba8[1], rgba8[2], rgba8[3]};
 }
 
 void dip_map_mip_text(int index, char text[DIP_MIP_TEXT_BYTES]) {
@@ -266,10 +262,9 @@ int dip_maps_mip_index(const DipMaps *maps, int pane, int x, int y) {
     for (int i = 0; i < BLENDS * (DIP_MIP_DEBUG_LEVELS - 1) + 1; i++) {
         const int level = dip_min(i / BLENDS, DIP_MIP_DEBUG_LEVELS - 2);
         const double part = (double)(i - level * BLENDS) / BLENDS;
-        const DipColour *a = &mip_colours[level], *b = a + 1;
-        const double colour[3] = {a->red + part * (b->red - a->red),
-                                  a->green + part * (b->green - a->green),
-                                  a->blue + part * (b->blue - a->blue)};
+        const uint8_t *a = dip_mip_debug_colour(level), *b = dip_mip_debug_colour(level + 1);
+        const double colour[3] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]),
+                                  a[2] + part * (b[2] - a[2])};
         // A pixel may have a colour itself, or a brighter one that light has dimmed. The darker
         // colour comes first, and rounding must not prefer the brighter one.
         const double distance = distance_from(pixel, colour);
