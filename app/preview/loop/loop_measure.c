@@ -37,7 +37,7 @@ static bool prices_need_truth(const DipPreview *preview) {
 
 // Returns whether the window shows the panes' errors or the truth.
 static bool looks_at_errors(const DipPreview *preview) {
-    return preview->state.panel || dip_maps_need_errors(&preview->state.tools);
+    return dip_preview_shows_times(&preview->state) || dip_maps_need_errors(&preview->state.tools);
 }
 
 // Returns whether the user or another program asks for errors or the truth.
@@ -72,7 +72,6 @@ static void close_errors(DipPreview *preview) {
     preview->state.tools.open = preview->state.wants_errors = false;
     dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
     preview->resized = true;
-    dip_preview_follow_dock(&preview->state);
 }
 
 static bool create_errors(DipPreview *preview, int64_t now_ns) {

@@ -293,12 +293,11 @@ void dip_preview_act(DipPreviewState *state, DipAction action, int argument, boo
         return;
     }
     actions[action].carry_out(&act);
-    dip_preview_follow_dock(state);
 }
 
-void dip_preview_follow_dock(DipPreviewState *state) {
+bool dip_preview_shows_times(const DipPreviewState *state) {
     const DipToolState *tools = &state->tools;
-    state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
+    return tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
 }
 
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {

@@ -23,12 +23,14 @@ double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
 }
 
-bool dip_flight_should_orbit(const DipSession *session) {
+// Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
+// at from all sides.
+static bool should_orbit(const DipSession *session) {
     return session->options && session->options->model_count > 0 && !session->shows_gallery;
 }
 
 double dip_flying_speed(const DipSession *session) {
-    if (!dip_flight_should_orbit(session) || !session->scene) {
+    if (!should_orbit(session) || !session->scene) {
         return courtyard_speed_m_per_s;
     }
     float low[3];
@@ -49,7 +51,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
             middle[i] = 0.5 * ((double)low[i] + high[i]);
         }
     }
-    if (dip_flight_should_orbit(session)) {
+    if (should_orbit(session)) {
         for (int i = 0; i < 3; ++i) {
             centre_world[i] = middle[i];
         }
@@ -59,7 +61,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
 }
 
 void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
-    flight->orbits = dip_flight_should_orbit(session);
+    flight->orbits = should_orbit(session);
     flight->speed_steps = 0;
     flight->knows_centre = false;
 }

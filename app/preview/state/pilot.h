@@ -29,10 +29,6 @@ double dip_flight_speed(const DipFlight *flight);
 // four seconds, whatever the models' unit of length is. Otherwise the speed is 3.
 double dip_flying_speed(const DipSession *session);
 
-// Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
-// at from all sides.
-bool dip_flight_should_orbit(const DipSession *session);
-
 // Writes the point that the camera orbits. If the panes show models that the user gave, this is the
 // middle of the scene's bounding box. In other scenes it is the point on the line of sight that is
 // nearest to the middle of the scene, but at least 1 m ahead, so it shows in the middle of the

@@ -164,8 +164,7 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
         remember(state);
         state->quality[pane] = *quality;
         dip_preview_describe(quality, true, text, sizeof text);
-        dip_preview_notice(state, now_ns, "%s: %s",
-                           pane == DIP_PANE_CURRENT ? "Current" : "Requested", text);
+        dip_preview_notice(state, now_ns, "%s: %s", dip_pane_titles[pane], text);
         ++state->scene_changes;
     }
 }

@@ -84,7 +84,7 @@ DipRect dip_compare_fit(DipRect area, int width, int height) {
 
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns) {
     if (state->tools.comparison == DIP_COMPARE_ALONE) {
-        return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
+        return dip_preview_edited_pane(state);
     }
     const bool swapped = state->tools.blinks && now_ns / blink_ns % 2 != 0;
     return state->tools.blinked != swapped ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;

@@ -21,11 +21,6 @@ static uint64_t own_version(uint64_t version, DipComparison comparison) {
     return version ^ ((uint64_t)comparison + 1) << 56;
 }
 
-static DipPixels columns_of(const DipPixels *picture, int first, int count) {
-    return (DipPixels){picture->rgba8 + 4 * (size_t)first, picture->stride_bytes, count,
-                       picture->height};
-}
-
 static void draw_wipe(DipUi *ui, const DipWindow *window) {
     const int width = window->frames[DIP_PANE_CURRENT].width;
     const int column = dip_compare_divider_column(window->state->tools.divider, width);
@@ -36,7 +31,8 @@ static void draw_wipe(DipUi *ui, const DipWindow *window) {
         if (count[p] > 0 && !dip_rect_is_empty(visible)) {
             uint64_t version;
             const DipPixels *picture = dip_compare_picture(window, p, &version);
-            const DipPixels part = columns_of(picture, first[p], count[p]);
+            const DipPixels part =
+                dip_pixels_part(picture, (DipRect){first[p], 0, count[p], picture->height});
             dip_ui_picture(ui, visible, &part, own_version(version, DIP_COMPARE_WIPE));
         }
     }

@@ -14,12 +14,6 @@ enum { MASK_SIDE = 64 };
 
 // --- the crop ------------------------------------------------------------------------------------
 
-// Returns the part of a picture that lies in a rectangle of its pixels.
-static DipPixels part_of(const DipPixels *picture, DipRect rect) {
-    const size_t offset = (size_t)rect.y * picture->stride_bytes + 4 * (size_t)rect.x;
-    return (DipPixels){picture->rgba8 + offset, picture->stride_bytes, rect.width, rect.height};
-}
-
 // Marks a sample of a pixel whose square has its top left corner at x, y. The mark is a square with
 // a white border. The square has the sample's colour if it is large enough; otherwise it is dark.
 static void mark_sample(const DipLoupe *loupe, DipCanvas *canvas, int x, int y, int zoom,
@@ -64,7 +58,7 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
     dip_canvas_set_clip(canvas, all);
     dip_canvas_fill(canvas, all, dip_style_well);
     if (!dip_rect_is_empty(crop->source)) {
-        const DipPixels part = part_of(&content->frame, crop->source);
+        const DipPixels part = dip_pixels_part(&content->frame, crop->source);
         const DipRect shown = {crop->shown.x - crop->frame.x, crop->shown.y - crop->frame.y,
                                crop->shown.width, crop->shown.height};
         dip_canvas_copy(canvas, shown, &part);

@@ -161,7 +161,7 @@ static void settings_change_the_requested_pane(void **state) {
     for (int i = 0; i < 20; i++) {
         turn();
     }
-    assert_true(dip_preview_state(preview)->panel);
+    assert_true(dip_preview_shows_times(dip_preview_state(preview)));
 }
 
 static void the_tour_goes_from_scene_to_scene(void **state) {

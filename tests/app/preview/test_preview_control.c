@@ -407,7 +407,7 @@ static void errors_are_measured_for_subscribers(void **state) {
     }
     assert_non_null(strstr(line, "\"requested\":{\"rmse_lin\":"));
     assert_non_null(strstr(line, "\"current\":{\"rmse_lin\":"));
-    assert_false(state_now()->panel);
+    assert_false(dip_preview_shows_times(state_now()));
 }
 
 // A pane that shows mip colours is not judged: its error is left out and not sent as 0.

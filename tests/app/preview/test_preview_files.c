@@ -549,7 +549,7 @@ static void errors_follow_the_new_scene(void **state) {
     write_picture("wall.ppm", 40, 200, 40);
     wait_for("Reloaded wall.ppm");
     wait_seconds(1);
-    assert_true(dip_preview_state(preview)->panel);
+    assert_true(dip_preview_shows_times(dip_preview_state(preview)));
 }
 
 // --- animations ----------------------------------------------------------------------------------

@@ -356,7 +356,7 @@ static void a_terminal_names_what_needs_a_window(void **state) {
         assert_memory_equal(&f->state.tools, &tools, sizeof tools);
     }
     press(f, DIP_ACTION_PANEL, 0, false);
-    assert_true(f->state.panel);
+    assert_true(dip_preview_shows_times(&f->state));
     f->state.in_terminal = false;
     press(f, DIP_ACTION_LOUPE, 0, false);
     assert_true(f->state.tools.loupe);
