@@ -4,7 +4,6 @@
 #include "app/ui/style.h"
 
 #include <math.h>
-#include <string.h>
 
 // Least zoom at which the crop marks samples. At smaller zooms, the marks would hide the pixels.
 enum { MARKS_ZOOM = 16 };
@@ -72,19 +71,15 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version) {
     DipPaneSamples *held = &loupe->panes[pane];
-    DipCropKey key;
-    memset(&key, 0, sizeof key);
-    key.frame_version = content->version;
-    key.generation = loupe->generation;
-    key.crop = content->crop;
-    if (!held->crop.valid || memcmp(&held->crop_key, &key, sizeof key) != 0) {
-        held->crop.valid = draw_crop(loupe, pane, content, &held->crop.canvas);
-        held->crop.version = ++loupe->version;
-        memcpy(&held->crop_key, &key, sizeof key);
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, "crop");
+    dip_hash_integer(&hash, (int64_t)content->version);
+    dip_hash_integer(&hash, loupe->generation);
+    dip_hash_bytes(&hash, &content->crop, sizeof content->crop);
+    if (dip_kept_begin(&held->crop, &hash)) {
+        held->crop.known = draw_crop(loupe, pane, content, &held->crop.canvas);
     }
-    *picture = dip_canvas_pixels(&held->crop.canvas);
-    *version = held->crop.version;
-    return held->crop.valid;
+    return dip_kept_show(&held->crop, picture, version);
 }
 
 // --- the box -------------------------------------------------------------------------------------
@@ -191,24 +186,19 @@ static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCan
 bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
                            DipPixels *picture, uint64_t *version) {
     DipPaneSamples *held = &loupe->panes[pane];
-    DipBoxKey key;
-    memset(&key, 0, sizeof key);
-    key.pattern = content->pattern;
-    key.side = content->side;
-    key.pixel = content->pixel;
-    key.has_samples = content->samples != NULL;
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, "box");
+    dip_hash_integer(&hash, (intptr_t)content->pattern);
+    dip_hash_integer(&hash, content->side);
+    dip_hash_bytes(&hash, &content->pixel, sizeof content->pixel);
     for (int s = 0; content->samples && s < content->pattern->count; ++s) {
         const DipSampleValue *sample = &content->samples[s];
-        memcpy(key.samples[s].linear16, sample->linear16, sizeof sample->linear16);
-        key.samples[s].patch = sample->patch;
-        key.samples[s].depth = sample->depth;
+        dip_hash_bytes(&hash, sample->linear16, sizeof sample->linear16);
+        dip_hash_integer(&hash, sample->patch);
+        dip_hash_number(&hash, (double)sample->depth);
     }
-    if (!held->box.valid || memcmp(&held->box_key, &key, sizeof key) != 0) {
-        held->box.valid = draw_box(loupe, content, &held->box.canvas);
-        held->box.version = ++loupe->version;
-        memcpy(&held->box_key, &key, sizeof key);
+    if (dip_kept_begin(&held->box, &hash)) {
+        held->box.known = draw_box(loupe, content, &held->box.canvas);
     }
-    *picture = dip_canvas_pixels(&held->box.canvas);
-    *version = held->box.version;
-    return held->box.valid;
+    return dip_kept_show(&held->box, picture, version);
 }
