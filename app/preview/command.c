@@ -179,10 +179,6 @@ static bool open_display(DipDisplay *display, const DipSession *session, const O
 
 // --- the preview ---------------------------------------------------------------------------------
 
-static bool load_scene_def(void *context, DipError *err) {
-    return dip_session_keep_model(context, err);
-}
-
 // Creates what the preview needs besides its session and its display: prices, the reload
 // (reload.h), the cost report, the cache of truths and the control channel. After a failure, the
 // caller still closes what *def and *remote hold.
@@ -238,8 +234,7 @@ static bool run(DipSession *session, const void *context, DipError *err) {
         .flying_speed_m_per_s = dip_flying_speed(session),
         .ui_scale = options->ui_scale,
         .hides_panel = options->hides_panel,
-        .load_scene_def = load_scene_def,
-        .context = session,
+        .load_scene_def = dip_session_keep_model,
     };
     bool done = open_parts(&def, &remote, cache, options, err) &&
                 open_display(&def.display, session, options, &def.notice, err);

@@ -75,9 +75,9 @@ static void close_errors(DipPreview *preview) {
 }
 
 static bool create_errors(DipPreview *preview, int64_t now_ns) {
-    const DipSession *session = preview->def.session;
+    DipSession *session = preview->def.session;
     DipError err;
-    if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
+    if (!preview->errors && preview->def.load_scene_def(session, &err)) {
         preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection,
                                                   preview->def.cache, &err);
     }

@@ -208,12 +208,11 @@ static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *sli
     } else if (!requested && (hovered || !valid)) {
         dip_ui_outline(ui, pill, radius, dip_ui_px(ui, 1), valid ? dip_style_soft : dip_style_line);
     }
-    dip_ui_text(ui, STEP_SIZE,
-                requested                  ? dip_style_on_accent
-                : valid && !slider->dimmed ? dip_style_soft
-                                           : dip_style_off,
-                DIP_ALIGN_CENTRE, cell.x + cell.width / 2,
-                cell.y + (cell.height - dip_ui_line_height(ui, STEP_SIZE)) / 2, width, name);
+    dip_ui_label(ui, STEP_SIZE,
+                 requested                  ? dip_style_on_accent
+                 : valid && !slider->dimmed ? dip_style_soft
+                                            : dip_style_off,
+                 DIP_ALIGN_CENTRE, pill, name);
     if (step == step_of(state, dip_preview_edited_pane(state), slider->setting)) {
         dip_ui_focus_ring(ui, pill, radius, &slider->input);
     }

@@ -2,6 +2,7 @@
 #include "app/preview/tools/compare.h"
 
 #include "app/preview/tools/loupe.h"
+#include "app/ui/layout.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,8 +79,7 @@ DipRect dip_compare_fit(DipRect area, int width, int height) {
         shown_height = area.height;
         shown_width = dip_max(1, (int)((int64_t)width * area.height / height));
     }
-    return (DipRect){area.x + (area.width - shown_width) / 2,
-                     area.y + (area.height - shown_height) / 2, shown_width, shown_height};
+    return dip_rect_middle(area, shown_width, shown_height);
 }
 
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns) {

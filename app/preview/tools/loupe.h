@@ -83,7 +83,6 @@ typedef struct DipLoupe {
     DipSrgbDecodeTable decode;
     DipSrgbEncodeTable encode;
     DipTargetRegion wanted;
-    bool is_wanted;
     uint64_t frame_index; // Index of the panes' newest frame, as in DipToolsInput.
     unsigned generation;  // Grows whenever reading samples is tried.
     DipPaneSamples panes[DIP_PANE_COUNT];

@@ -54,7 +54,6 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
         return false;
     }
     const DipRect all = {0, 0, crop->frame.width, crop->frame.height};
-    dip_canvas_set_clip(canvas, all);
     dip_canvas_fill(canvas, all, dip_style_well);
     if (!dip_rect_is_empty(crop->source)) {
         const DipPixels part = dip_pixels_part(&content->frame, crop->source);
@@ -171,7 +170,6 @@ static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCan
         return false;
     }
     const DipRect all = {0, 0, content->side, content->side};
-    dip_canvas_set_clip(canvas, all);
     const int first = box_position(content->side, 0);
     const int length = box_position(content->side, 256) - first;
     dip_canvas_fill(canvas, all, dip_style_dock);

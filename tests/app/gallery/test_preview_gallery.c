@@ -24,8 +24,8 @@ static DipDisplay display;
 static DipFakeDisplay *fake;
 static DipPreview *preview;
 
-static bool no_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool no_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "scene", "there is none");
 }
 

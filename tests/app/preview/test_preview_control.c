@@ -42,8 +42,8 @@ static LineClient client;
 static bool scene_is_broken; // The scene's file has become unreadable.
 static int scene_reads;      // Number of times that the scene's file was read again.
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     scene_reads++;
     if (scene_is_broken) {
         return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");

@@ -35,8 +35,8 @@ static DipPreview *preview;
 
 static bool scene_is_broken; // The scene's file has become unreadable.
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     if (scene_is_broken) {
         return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");
     }

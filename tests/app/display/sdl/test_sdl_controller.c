@@ -29,8 +29,8 @@ static SDL_Joystick *joystick;
 
 // --- the fixture -------------------------------------------------------------------------------
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     (void)err;
     session.scene_def = scene.def;
     return true;
