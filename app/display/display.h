@@ -46,7 +46,7 @@ typedef struct DipDisplay {
     double (*refresh_hz)(void *context);
 
     // Returns the time in nanoseconds since an arbitrary moment. The clock advances while
-    // next_event waits.
+    // next_event waits. NULL: the display has the time of dip_clock_ns (renderer/base/clock.h).
     int64_t (*now_ns)(void *context);
 
     // Returns whether nobody can see the picture, because the display is minimised or hidden. When

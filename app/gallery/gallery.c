@@ -7,6 +7,7 @@
 #include "renderer/base/nearest.h"
 #include "renderer/base/pages.h"
 #include "renderer/scene/finish.h"
+#include "renderer/scene/mip_debug.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,7 @@ static const DipGalleryScene *const scenes[] = {
 #undef LIST_SCENE
 };
 
-enum { SCENE_COUNT = (int)DIP_ARRAY_COUNT(scenes), MIP_COLOURS = 8 };
+enum { SCENE_COUNT = (int)DIP_ARRAY_COUNT(scenes) };
 
 struct DipGallery {
     DipGalleryDef def;
@@ -133,26 +134,6 @@ void dip_gallery_pose(int scene, int64_t time_ns, DipPose *pose) {
 
 // --- opening and closing -------------------------------------------------------------------------
 
-// Makes a texture whose levels are the sRGB colours with which the scene renderer shows mip levels
-// of 1024, 512, ... 8 texels.
-static DipTexture *make_mip_colours(DipError *err) {
-    static const uint8_t colours[MIP_COLOURS][4] = {
-        {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
-        {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},
-    };
-    DipTextureDef levels[MIP_COLOURS];
-    for (int i = 0; i < MIP_COLOURS; i++) {
-        levels[i] = (DipTextureDef){.name = "mip colour",
-                                    .width = 1,
-                                    .height = 1,
-                                    .rgba8 = colours[i],
-                                    .encoding = DIP_ENCODING_SRGB,
-                                    .wrap_u = DIP_WRAP_REPEAT,
-                                    .wrap_v = DIP_WRAP_REPEAT};
-    }
-    return dip_texture_create_from_levels(levels, MIP_COLOURS, err);
-}
-
 static void close_scene(DipGallery *gallery) {
     if (gallery->room.content && scenes[gallery->open]->destroy) {
         scenes[gallery->open]->destroy(gallery->room.content);
@@ -192,7 +173,7 @@ DipGallery *dip_gallery_create(const DipGalleryDef *def, DipError *err) {
     gallery->def = *def;
     gallery->room.def = &gallery->def;
     gallery->open = -1;
-    gallery->mip_colours = make_mip_colours(err);
+    gallery->mip_colours = dip_mip_debug_create(NULL, err);
     if (!gallery->mip_colours || !open_scene(gallery, dip_gallery_scene_at(def->scene, 0), err)) {
         dip_gallery_destroy(&gallery);
     }

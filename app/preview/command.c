@@ -1,16 +1,51 @@
-// Defines the command `diptych preview`: its options, its help, and the session that it opens.
+// Defines the command `diptych preview`: its options and its help, and what it does. It opens the
+// display and everything else that the preview needs, and runs the preview's loop.
 #include "app/preview/command.h"
 
+#include "app/cli/log.h"
+#include "app/cost/context.h"
 #include "app/cost/options.h"
-#include "app/preview/preview.h"
+#include "app/display/sdl/sdl_display.h"
+#include "app/display/terminal/terminal_display.h"
+#include "app/preview/control/control.h"
+#include "app/preview/loop/loop.h"
+#include "app/preview/loop/reload.h"
+#include "app/preview/loop/view.h"
+#include "app/preview/state/pilot.h"
+#include "app/session/session.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/clock.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 // --- options -------------------------------------------------------------------------------------
 
-#define FIELD(name) offsetof(DipPreviewOptions, name)
+// The display that the user asks for.
+typedef enum DisplayChoice {
+    DISPLAY_AUTO, // A window or, if there is no display for one, the terminal.
+    DISPLAY_WINDOW,
+    DISPLAY_TERMINAL
+} DisplayChoice;
+
+// The values of the options. Models that are given as arguments are added to those of --model, in
+// session.models.
+typedef struct Options {
+    DipProgramOptions program;
+    DipSessionOptions session;
+    const char *cost_report;  // The scene's cost.json or its folder; NULL without --cost. Borrowed.
+    double pixels_per_degree; // Viewing distance for FLIP (a perceptual error); 0 if not given.
+    const char *cache;        // Folder of cached truths (truth.h); NULL without --cache. Borrowed.
+    const char *control;      // "-" or a socket's path; NULL without --control. Borrowed.
+    unsigned long window_id;  // X11 window to open the preview in; 0 means a window of its own.
+    bool watch;               // The scene is loaded again when one of its files changes.
+    int hides_panel;          // 1 with --panel off, otherwise 0.
+    double ui_scale;          // Factor by which controls are enlarged; 0 without the option.
+    DisplayChoice display;
+    DipTerminalColours terminal_colours;
+} Options;
+
+#define FIELD(name) offsetof(Options, name)
 
 // Reads the identifier of an X11 window: a number from 1 to 0x1fffffff, in decimal or, after 0x, in
 // hexadecimal.
@@ -29,7 +64,7 @@ static bool read_window(void *fields, const DipOptionRow *row, const char *value
 }
 
 // The words that --display, --terminal-colours and --panel accept. A word's index is the value of
-// the option: a DipDisplayChoice, a DipTerminalColours, or 0 or 1 for hides_panel.
+// the option: a DisplayChoice, a DipTerminalColours, or 0 or 1 for hides_panel.
 static const char *const displays[] = {"auto", "window", "terminal"};
 static const char *const colours[] = {"auto", "true", "256", "none"};
 static const char *const panels[] = {"on", "off"};
@@ -86,18 +121,146 @@ static const DipOptionPart parts[] = {
 };
 static const DipOptionParts option_parts = {parts, DIP_ARRAY_COUNT(parts)};
 
+// --- the display ---------------------------------------------------------------------------------
+
+static bool open_window(DipDisplay *display, const DipSession *session, const Options *options,
+                        DipError *err) {
+    const DipToolState tools = {.ui_scale = options->ui_scale > 0.0 ? options->ui_scale : 1.0,
+                                .fixed_scale = options->ui_scale > 0.0};
+    const int pane_height = session->pane_size.height;
+    int height = pane_height;
+    // Iterates, because the scale depends on the height, and the height on the scale.
+    for (int i = 0; i < 4 && !options->hides_panel; ++i) {
+        const double scale = dip_layout_scale(1.0, &tools, height);
+        height = pane_height + (int)(scale * dip_layout_dock_height() + 0.5);
+    }
+    return dip_sdl_display_open(display, options->window_id,
+                                2 * session->pane_size.width + DIP_PANE_GAP_PX, height, err);
+}
+
+// Opens the terminal as the display. Also fails if --control is "-", because requests would then
+// come from standard input, which the terminal needs.
+static bool open_terminal(DipDisplay *display, const Options *options, DipError *err) {
+    if (options->control && strcmp(options->control, "-") == 0) {
+        return dip_error_set(
+            err, DIP_ERROR_CONFLICT, NULL, 0, "--control",
+            "standard input and output are the terminal; give the path of a socket");
+    }
+    return dip_terminal_display_open(display, options->terminal_colours, err);
+}
+
+// Opens the terminal or the window that the options ask for. If there is no display to open a
+// window on, `auto` opens the terminal instead, unless --window-id or --control is given or
+// standard output is no terminal. Sets *notice to a text that tells the user that the terminal
+// replaces the window, or to NULL.
+static bool open_display(DipDisplay *display, const DipSession *session, const Options *options,
+                         const char **notice, DipError *err) {
+    static const char no_window[] =
+        "There is no display to open a window on, so the preview shows in the terminal";
+    DipError failure = {0};
+    *notice = NULL;
+    if (options->display == DISPLAY_TERMINAL) {
+        return open_terminal(display, options, err);
+    }
+    if (open_window(display, session, options, &failure)) {
+        return true;
+    }
+    if (options->display == DISPLAY_AUTO && failure.code == DIP_ERROR_RUNTIME &&
+        !options->window_id && !options->control && dip_terminal_is_there()) {
+        dip_log_note("%s", no_window);
+        *notice = no_window;
+        return open_terminal(display, options, err);
+    }
+    if (err) {
+        *err = failure;
+    }
+    return false;
+}
+
+// --- the preview ---------------------------------------------------------------------------------
+
+// Creates what the preview needs besides its session and its display: prices, the reload
+// (reload.h), the cost report, the cache of truths and the control channel. After a failure, the
+// caller still closes what *def and *remote hold.
+static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_MAX],
+                       const Options *options, DipError *err) {
+    char scene[DIP_COST_TEXT];
+    def->prices = dip_prices_create(err);
+    def->reload = def->prices ? dip_reload_create(def->session, options->watch, err) : NULL;
+    if (!def->reload) {
+        return false;
+    }
+    if (options->cost_report) {
+        dip_cost_scene_name(def->session, scene);
+        def->costs = dip_costs_load(def->prices, options->cost_report, scene, err);
+        if (!def->costs) {
+            return false;
+        }
+    }
+    dip_prices_set_viewing(def->prices, options->pixels_per_degree);
+    if (dip_cost_find_cache(options->cache, cache, err)) {
+        def->cache = cache[0] ? cache : NULL;
+    } else if (options->cache) {
+        return false; // Only a folder that --cache names must be usable.
+    }
+    if (options->control) {
+        *remote = dip_remote_open(options->control, err);
+        def->control = *remote ? dip_remote_control(*remote) : def->control;
+    }
+    return !options->control || *remote;
+}
+
+static bool run_loop(const DipPreviewDef *def, DipError *err) {
+    DipPreview *preview = dip_preview_create(def, err);
+    bool done = preview != NULL;
+    while (done && !dip_preview_has_quit(preview)) {
+        done = dip_preview_turn(preview, err);
+    }
+    def->session->times.ended_ns = dip_clock_ns();
+    dip_preview_destroy(&preview);
+    return done;
+}
+
+// Shows the session until the user or another program ends the preview. Fails if no display can be
+// opened (RUNTIME) or a window has no font (MISSING), if the cost report, the cache of --cache or
+// the control channel cannot be opened, or if drawing fails.
+static bool run(DipSession *session, const void *context, DipError *err) {
+    const Options *options = context;
+    char cache[PATH_MAX];
+    DipRemote *remote = NULL;
+    DipPreviewDef def = {
+        .session = session,
+        .measures_prices = true,
+        .flying_speed_m_per_s = dip_flying_speed(session),
+        .ui_scale = options->ui_scale,
+        .hides_panel = options->hides_panel,
+        .load_scene_def = dip_session_keep_model,
+    };
+    bool done = open_parts(&def, &remote, cache, options, err) &&
+                open_display(&def.display, session, options, &def.notice, err);
+    if (done) {
+        done = run_loop(&def, err);
+        if (options->window_id && options->display != DISPLAY_TERMINAL &&
+            dip_sdl_display_has_lost_host(&def.display)) {
+            dip_log_note("the program that owns window %lu has closed it", options->window_id);
+        }
+        def.display.close(def.display.context);
+    }
+    dip_remote_close(&remote);
+    dip_reload_destroy(&def.reload);
+    dip_costs_free(&def.costs);
+    dip_prices_destroy(&def.prices);
+    return done;
+}
+
 // --- the command ---------------------------------------------------------------------------------
 
 static bool check(const void *options, DipError *err) {
-    return dip_session_options_check(&((const DipPreviewOptions *)options)->session, err);
-}
-
-static bool run(DipSession *session, const void *options, DipError *err) {
-    return dip_preview_run(session, options, err);
+    return dip_session_options_check(&((const Options *)options)->session, err);
 }
 
 static void describe_session(const void *options, DipSessionDef *def) {
-    const DipPreviewOptions *preview = options;
+    const Options *preview = options;
     def->options = &preview->session;
     def->scene = true;
     def->renderers = true;
@@ -135,9 +298,9 @@ const DipCommand dip_preview_command = {
     .example_count = DIP_ARRAY_COUNT(examples),
     .lists_settings = true,
     .parts = &option_parts,
-    .operands = {offsetof(DipPreviewOptions, session.models),
-                 offsetof(DipPreviewOptions, session.model_count), DIP_MAX_MODELS},
-    .options_size = sizeof(DipPreviewOptions),
+    .operands = {offsetof(Options, session.models), offsetof(Options, session.model_count),
+                 DIP_MAX_MODELS},
+    .options_size = sizeof(Options),
     .check = check,
     .describe_session = describe_session,
     .run = run,

@@ -1,4 +1,4 @@
-// Declares the command `diptych preview`, which opens the window or draws into the terminal.
+// Declares the command `diptych preview`, which shows both panes in a window or in a terminal.
 #ifndef DIP_APP_PREVIEW_COMMAND_H
 #define DIP_APP_PREVIEW_COMMAND_H
 

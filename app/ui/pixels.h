@@ -40,6 +40,14 @@ static inline int dip_max(int a, int b) {
     return a > b ? a : b;
 }
 
+// Returns the part of a picture that lies in a rectangle of its pixels.
+static inline DipPixels dip_pixels_part(const DipPixels *picture, DipRect rect) {
+    const size_t offset = (size_t)rect.y * picture->stride_bytes + 4 * (size_t)rect.x;
+    const DipPixels part = {picture->rgba8 + offset, picture->stride_bytes, rect.width,
+                            rect.height};
+    return part;
+}
+
 // Returns the rectangle of the pixels that lie in both rectangles; it may be empty.
 DipRect dip_rect_intersect(DipRect a, DipRect b);
 

@@ -1,4 +1,5 @@
 // Finds the control under the pointer, hands events to controls, and draws buttons and fields.
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 
@@ -186,12 +187,6 @@ static void draw_box(DipUi *ui, DipRect rect, int radius, DipColour fill, DipCol
     dip_ui_outline(ui, rect, radius, dip_ui_px(ui, 1), line);
 }
 
-// Draws a line of text in the middle of a rectangle.
-static void draw_centred(DipUi *ui, int size, DipColour colour, DipRect rect, const char *text) {
-    dip_ui_text(ui, size, colour, DIP_ALIGN_CENTRE, rect.x + rect.width / 2,
-                rect.y + (rect.height - dip_ui_line_height(ui, size)) / 2, rect.width, text);
-}
-
 bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiLook look,
                    const char *tip) {
     const DipUiInput input = dip_ui_control(
@@ -207,11 +202,11 @@ bool dip_ui_button(DipUi *ui, DipUiId id, DipRect rect, const char *text, DipUiL
     } else {
         draw_box(ui, rect, radius, dip_style_raised, bright ? dip_style_white : dip_style_line);
     }
-    draw_centred(ui, size,
+    dip_ui_label(ui, size,
                  look == DIP_UI_PRIMARY ? dip_style_on_accent
                  : look == DIP_UI_OFF   ? dip_style_dim
                                         : dip_style_white,
-                 rect, text);
+                 DIP_ALIGN_CENTRE, rect, text);
     dip_ui_focus_ring(ui, rect, radius, &input);
     return input.pressed;
 }
@@ -257,6 +252,6 @@ DipUiInput dip_ui_number_field(DipUi *ui, DipUiId id, DipRect rect, const char *
              input.focused   ? dip_style_focus
              : input.hovered ? dip_style_white
                              : dip_style_line);
-    draw_centred(ui, 12, dip_style_white, rect, ui->typing == id ? shown : text);
+    dip_ui_label(ui, 12, dip_style_white, DIP_ALIGN_CENTRE, rect, ui->typing == id ? shown : text);
     return input;
 }

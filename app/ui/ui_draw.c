@@ -1,5 +1,6 @@
 // Draws the shapes, texts and tips of controls. At the end of a pass (ui.h), lets the keys move the
 // focus.
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 #include "app/ui/ui_private.h"
 
@@ -52,20 +53,17 @@ void dip_ui_outline(DipUi *ui, DipRect rect, int radius, int width, DipColour co
     dip_draw_list_round(ui->pass.list, rect, radius, dip_max(1, width), colour);
 }
 
-static DipRect grown(DipRect rect, int by) {
-    return (DipRect){rect.x - by, rect.y - by, rect.width + 2 * by, rect.height + 2 * by};
-}
-
 void dip_ui_mark(DipUi *ui, DipRect rect, DipColour colour) {
     const int thin = dip_ui_px(ui, 1);
-    dip_ui_outline(ui, grown(rect, 3 * thin), 0, thin, dip_style_dark);
-    dip_ui_outline(ui, grown(rect, 2 * thin), 0, 2 * thin, colour);
+    dip_ui_outline(ui, dip_rect_inset(rect, -3 * thin, -3 * thin), 0, thin, dip_style_dark);
+    dip_ui_outline(ui, dip_rect_inset(rect, -2 * thin, -2 * thin), 0, 2 * thin, colour);
 }
 
 void dip_ui_focus_ring(DipUi *ui, DipRect rect, int radius, const DipUiInput *input) {
     const int width = dip_ui_px(ui, 2);
     if (input->focused) {
-        dip_ui_outline(ui, grown(rect, 2 * width), radius + 2 * width, width, dip_style_focus);
+        dip_ui_outline(ui, dip_rect_inset(rect, -2 * width, -2 * width), radius + 2 * width, width,
+                       dip_style_focus);
     }
 }
 

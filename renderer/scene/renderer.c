@@ -5,7 +5,7 @@
 #include "renderer/base/pages.h"
 #include "renderer/scene/draw/box.h"
 #include "renderer/scene/draw/renderer_parts.h"
-#include "renderer/scene/resources/mip_debug.h"
+#include "renderer/scene/mip_debug.h"
 #include "renderer/scene/resources/scene_layout.h"
 #include "renderer/scene/view/view.h"
 

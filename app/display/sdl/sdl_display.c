@@ -260,11 +260,6 @@ static double refresh_hz(void *context) {
     return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60.0;
 }
 
-static int64_t now_ns(void *context) {
-    (void)context;
-    return dip_clock_ns();
-}
-
 static bool is_hidden(void *context) {
     const SdlDisplay *sdl = context;
     return sdl->host ? dip_sdl_host_is_hidden(sdl->host, dip_clock_ns())
@@ -309,7 +304,6 @@ static DipDisplay display_of(SdlDisplay *sdl) {
         .size = size,
         .scale = scale,
         .refresh_hz = refresh_hz,
-        .now_ns = now_ns,
         .is_hidden = is_hidden,
         // The host decides the size of its windows.
         .set_full_screen = sdl->host ? NULL : set_full_screen,
@@ -321,9 +315,8 @@ static DipDisplay display_of(SdlDisplay *sdl) {
     };
 }
 
-// Opens a window of Diptych's own, or a window within the host's window if `window_id` is not 0.
-static bool open_display(DipDisplay *display, unsigned long window_id, int width, int height,
-                         DipError *err) {
+bool dip_sdl_display_open(DipDisplay *display, unsigned long window_id, int width, int height,
+                          DipError *err) {
     SdlDisplay *sdl = calloc(1, sizeof *sdl);
     if (!sdl) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
@@ -335,14 +328,6 @@ static bool open_display(DipDisplay *display, unsigned long window_id, int width
     }
     *display = display_of(sdl);
     return true;
-}
-
-bool dip_sdl_display_open(DipDisplay *display, int width, int height, DipError *err) {
-    return open_display(display, 0, width, height, err);
-}
-
-bool dip_sdl_display_open_in(DipDisplay *display, unsigned long window_id, DipError *err) {
-    return open_display(display, window_id, 0, 0, err);
 }
 
 bool dip_sdl_display_has_lost_host(const DipDisplay *display) {

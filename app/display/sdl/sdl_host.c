@@ -93,11 +93,16 @@ unsigned long dip_sdl_host_child(const DipSdlHost *host) {
     return host->child;
 }
 
+// Finds the X11 window of an SDL window. Returns false if SDL does not use X11.
+static bool find_x11(SDL_Window *window, SDL_SysWMinfo *info) {
+    SDL_VERSION(&info->version);
+    return SDL_GetWindowWMInfo(window, info) && info->subsystem == SDL_SYSWM_X11;
+}
+
 bool dip_sdl_host_select(SDL_Window *window) {
     SDL_SysWMinfo info;
-    SDL_VERSION(&info.version);
     XSetErrorHandler(ignore_error); // Replaces a handler that SDL may have set.
-    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
+    if (!find_x11(window, &info)) {
         return false;
     }
     XSelectInput(info.info.x11.display, info.info.x11.window,
@@ -177,8 +182,7 @@ static int handle_error(Display *display, XErrorEvent *event) {
 
 void dip_sdl_x_errors_watch(SDL_Window *own) {
     SDL_SysWMinfo info;
-    SDL_VERSION(&info.version);
-    if (own_window == None && SDL_GetWindowWMInfo(own, &info) && info.subsystem == SDL_SYSWM_X11) {
+    if (own_window == None && find_x11(own, &info)) {
         own_window = info.info.x11.window;
         previous_handler = XSetErrorHandler(handle_error);
     }
@@ -189,9 +193,8 @@ void dip_sdl_x_errors_watch(SDL_Window *own) {
 // several round trips on the first connection.
 void dip_sdl_x_errors_close(SDL_Window *own) {
     SDL_SysWMinfo info;
-    SDL_VERSION(&info.version);
     closes = true;
-    if (own && SDL_GetWindowWMInfo(own, &info) && info.subsystem == SDL_SYSWM_X11) {
+    if (own && find_x11(own, &info)) {
         for (int i = 0; i < 4; i++) {
             XSync(info.info.x11.display, False);
             SDL_Delay(5);

@@ -310,11 +310,6 @@ static double refresh_hz(void *context) {
     return frames_per_second;
 }
 
-static int64_t now_ns(void *context) {
-    (void)context;
-    return dip_clock_ns();
-}
-
 // --- opening and closing -----------------------------------------------------------------------
 
 static void free_terminal(Terminal *terminal) {
@@ -381,7 +376,6 @@ bool dip_terminal_display_open(DipDisplay *display, DipTerminalColours colours, 
         .size = size,
         .scale = scale,
         .refresh_hz = refresh_hz,
-        .now_ns = now_ns,
         .set_text = set_text,
         .close = close_display,
     };

@@ -4,6 +4,7 @@
 #include "app/display/terminal/terminal_private.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/utf8.h"
 
 #include <stddef.h>
 
@@ -233,7 +234,7 @@ static int read_control(const uint8_t *bytes, int count, DipEvent *event) {
 // encoding.
 static int read_utf8(const uint8_t *bytes, int count, DipEvent *event) {
     const int length = bytes[0] >= 0xf0 ? 4 : bytes[0] >= 0xe0 ? 3 : bytes[0] >= 0xc2 ? 2 : 1;
-    int code = length == 1 ? 0 : bytes[0] & (0x7f >> length);
+    uint32_t code = 0;
     for (int i = 1; i < length; ++i) {
         if (i >= count) {
             return 0;
@@ -241,11 +242,9 @@ static int read_utf8(const uint8_t *bytes, int count, DipEvent *event) {
         if ((bytes[i] & 0xc0) != 0x80) {
             return 1;
         }
-        code = code << 6 | (bytes[i] & 0x3f);
     }
-    static const int least[] = {0, 0, 0x80, 0x800, 0x10000}; // [length]: least code point.
-    if (code >= least[length] && code > 0 && code <= 0x10ffff) {
-        *event = key_event(code, 0);
+    if (dip_utf8_read((const char *)bytes, (size_t)length, &code) > 0) {
+        *event = key_event((int)code, 0);
     }
     return length;
 }

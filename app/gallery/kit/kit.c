@@ -4,6 +4,7 @@
 
 #include "renderer/base/assert.h"
 #include "renderer/base/pages.h"
+#include "renderer/scene/mip_debug.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,6 +142,52 @@ bool dip_kit_show(const DipKitList *list, const float clear_lin[3]) {
     return !list->failed && dip_kit_draw(list->view, list->view->pipeline, &pass, list->err);
 }
 
+// --- the die -------------------------------------------------------------------------------------
+
+enum { FACES = 6 };
+
+// Makes the shape DIP_KIT_DIE.
+static bool make_die(DipShape *box, DipError *err) {
+    // Index of the square of the texture that each face of the box shows: +x, -x, +y, -y, +z, -z.
+    static const int squares[FACES] = {0, 5, 1, 4, 2, 3};
+    static const float size[3] = {1.0f, 1.0f, 1.0f};
+    const float width = 1.0f / FACES;
+    const bool made = dip_shape_box(box, size, err);
+    for (uint32_t v = 0; v < box->vertex_count; v++) {
+        float *u = box->attributes + (size_t)v * DIP_SHAPE_ATTRIBUTES + DIP_SHAPE_TEXTURE;
+        *u = width * ((float)squares[v / 4] + *u);
+    }
+    return made;
+}
+
+// Returns how deep a face with `pips` pips is at the point u, v: 1 within a pip, 0 outside of all
+// pips.
+static float pip_at(int pips, float u, float v) {
+    // [pips - 1]: bit 3 * row + column is set if that cell of a 3x3 grid has a pip.
+    static const int patterns[FACES] = {0x010, 0x101, 0x111, 0x145, 0x155, 0x16d};
+    float deepest = 0.0f;
+    for (int cell = 0; cell < 9; cell++) {
+        if (patterns[pips - 1] >> cell & 1) {
+            const float du = u - (0.24f + 0.26f * (float)(cell % 3));
+            const float dv = v - (0.24f + 0.26f * (float)(cell / 3));
+            const float depth = dip_kit_smooth(0.100f, 0.086f, sqrtf(du * du + dv * dv));
+            deepest = dip_kit_greatest(depth, deepest);
+        }
+    }
+    return deepest;
+}
+
+void dip_kit_paint_die(float u, float v, float rgba[4]) {
+    const int face = (int)(u * FACES);
+    const float along = u * FACES - (float)face;
+    const float edge = dip_kit_least(dip_kit_to_edge(along), dip_kit_to_edge(v));
+    const float pip = pip_at(face + 1, along, v);
+    const float body = 0.80f + 0.12f * dip_kit_smooth(0.0f, 0.07f, edge);
+    rgba[0] = dip_kit_mix(body, face ? 0.07f : 0.62f, pip); // The single pip is red.
+    rgba[1] = dip_kit_mix(0.98f * body, 0.06f, pip);
+    rgba[2] = dip_kit_mix(0.93f * body, 0.08f, pip);
+}
+
 // --- meshes --------------------------------------------------------------------------------------
 
 bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *err) {
@@ -164,7 +211,7 @@ static bool make_shape(DipShape *shape, const DipKitMeshDef *def, DipError *err)
     case DIP_KIT_QUAD:
         return dip_shape_quad(shape, a[0], a[1], err);
     default:
-        return dip_kit_die_shape(shape, err);
+        return make_die(shape, err);
     }
 }
 
@@ -233,20 +280,9 @@ void dip_kit_stock_free(DipKitStock *stock) {
     }
 }
 
-// Shows each mip level of the texture in the colour of its size. A level's size is its longer side.
-// Level i of the mip colours has the colour for 1024 >> i texels.
 void dip_kit_show_mip_colours(DipSampler *sampler, const DipGalleryView *view) {
-    const int last = dip_texture_level_count(sampler->texture) - 1;
-    const int last_colour = dip_texture_level_count(view->mip_colours) - 1;
     sampler->shown = view->mip_colours;
-    for (int level = 0; level < DIP_LEVEL_TABLE; level++) {
-        int width, height, shown = 0;
-        dip_texture_level_size(sampler->texture, level < last ? level : last, &width, &height);
-        while (shown < last_colour && (width > height ? width : height) < 1024 >> shown) {
-            shown++;
-        }
-        sampler->shown_level[level] = shown;
-    }
+    dip_mip_debug_levels(sampler->texture, sampler->shown_level);
 }
 
 DipSampler dip_kit_sampler(const DipGalleryView *view, const DipKitTexture *texture) {
@@ -298,7 +334,8 @@ static int wrap(int i, int period) {
     return left < 0 ? left + period : left;
 }
 
-float dip_kit_noise(float x, float y, int period, int seed) {
+// Returns smooth noise, 0..1. It repeats along x and y after `period` units.
+static float noise(float x, float y, int period, int seed) {
     const float x0 = dip_kit_floor(x);
     const float y0 = dip_kit_floor(y);
     const float u = x - x0;
@@ -321,7 +358,7 @@ float dip_kit_turbulence(float x, float y, int period, int octaves, int seed) {
     float size = 0.5f;
     float total = 0.0f;
     for (int o = 0; o < octaves; o++) {
-        sum += size * dip_kit_noise(x, y, period, seed + o);
+        sum += size * noise(x, y, period, seed + o);
         total += size;
         size *= 0.5f;
         x *= 2.0f;

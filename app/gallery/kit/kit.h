@@ -35,9 +35,6 @@ typedef struct DipKitMeshDef {
     float arguments[4];
 } DipKitMeshDef;
 
-// Makes the shape DIP_KIT_DIE. The caller frees it (dip_shape_free).
-bool dip_kit_die_shape(DipShape *shape, DipError *err);
-
 // Makes a mesh from a shape and frees the shape, even on failure.
 bool dip_kit_mesh(DipMesh **mesh, const char *name, DipShape *shape, DipError *err);
 
@@ -100,7 +97,7 @@ typedef struct DipGalleryView {
     DipTarget target;              // The pane's picture, of the format DIP_FORMAT_SRGB8.
     DipPipeline *pipeline;         // A pipeline of the picture's size.
     DipSampler filter;             // A sampler that filters as the settings say, without a texture.
-    const DipTexture *mip_colours; // Level i has the colour of mip levels of 1024 >> i texels.
+    const DipTexture *mip_colours; // See dip_mip_debug_create (mip_debug.h).
     DipPipelineCounters *counters;
     DipStageTimes *times;
 } DipGalleryView;
@@ -386,11 +383,8 @@ static inline float dip_kit_random(int x, int y, int z) {
     return (float)((h ^ h >> 15) >> 8) * (1.0f / 16777216.0f);
 }
 
-// Returns smooth noise, 0..1. It repeats along x and y after `period` units.
-float dip_kit_noise(float x, float y, int period, int seed);
-
-// Returns the weighted mean of several octaves of noise, 0..1. It repeats along x and y after
-// `period` units.
+// Returns the weighted mean of several octaves of smooth noise, 0..1. It repeats along x and y
+// after `period` units.
 float dip_kit_turbulence(float x, float y, int period, int octaves, int seed);
 
 #endif

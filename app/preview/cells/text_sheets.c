@@ -56,25 +56,23 @@ static void draw_how_to(DipTextScreen *screen, DipTextArea body, const DipPrevie
 
 void dip_text_draw_costs(DipTextScreen *screen, DipTextArea body, const DipPreviewState *state) {
     const int end = body.column + body.columns;
-    DipCosts costs;
     char heading[DIP_COSTS_HEADING];
     if (!state->costs) {
         draw_how_to(screen, body, state);
         return;
     }
-    dip_costs_make(&costs, state->costs);
     dip_costs_heading(state->costs, heading);
     dip_text_put(screen, body.row, body.column + 1, end, dip_text_white, heading);
-    for (int r = 0; r < costs.row_count && r + 1 < body.rows; ++r) {
-        const DipCostsRow *row = &costs.rows[r];
+    for (int r = 0; r < state->costs->sweep_count && r + 1 < body.rows; ++r) {
+        const DipCostsRow row = dip_costs_row(state->costs, &state->costs->sweeps[r]);
         int column = body.column + 1;
         dip_text_put(screen, body.row + 1 + r, column, column + TITLE_COLUMNS - 1, dip_text_white,
-                     row->title);
+                     row.title);
         column += TITLE_COLUMNS;
-        for (int s = 0; s < row->step_count && column < end; ++s) {
-            const bool at = dip_costs_is_at(row, s, &state->quality[DIP_PANE_REQUESTED]);
+        for (int s = 0; s < row.step_count && column < end; ++s) {
+            const bool at = dip_costs_is_at(&row, s, &state->quality[DIP_PANE_REQUESTED]);
             char text[64];
-            snprintf(text, sizeof text, "%s %s", row->steps[s].name, row->steps[s].figures);
+            snprintf(text, sizeof text, "%s %s", row.steps[s].name, row.steps[s].figures);
             dip_text_put(screen, body.row + 1 + r, column, dip_min(end, column + STEP_COLUMNS - 1),
                          at ? dip_text_accent : dip_text_soft, text);
             column += STEP_COLUMNS;

@@ -28,8 +28,9 @@ void dip_text_view_free(DipTextView *view) {
 // have pane_rows rows.
 static int body_rows(const DipTextView *view, const DipPreviewState *state, int columns,
                      int pane_rows) {
-    const bool asked = view->focused || state->panel || state->show_costs;
-    const int wanted = state->panel || state->show_costs
+    const bool times = dip_preview_shows_times(state);
+    const bool asked = view->focused || times || state->show_costs;
+    const int wanted = times || state->show_costs
                            ? pane_rows / 2
                            : dip_text_settings_rows(columns, state->costs != NULL);
     const int least_pane_rows = asked ? MIN_PANE_ROWS : ROOMY_PANE_ROWS;
@@ -39,8 +40,9 @@ static int body_rows(const DipTextView *view, const DipPreviewState *state, int 
     return asked && pane_rows / 2 > 1 ? dip_min(wanted, pane_rows / 2) : 0;
 }
 
-DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewState *state, int width,
-                                   int height) {
+// Lays out the screen for a picture of the given size in pixels.
+static DipTextLayout layout_of(const DipTextView *view, const DipPreviewState *state, int width,
+                               int height) {
     DipTextLayout layout = {.columns = width, .rows = height / 2, .bar_row = -1, .keys_row = -1};
     const int label_rows = layout.rows > 1 ? 1 : 0;
     int pane_rows = layout.rows - label_rows;
@@ -63,7 +65,7 @@ DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewStat
 
 void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, int width,
                          int height, DipRect panes[DIP_PANE_COUNT]) {
-    const DipTextLayout layout = dip_text_view_layout(view, state, width, height);
+    const DipTextLayout layout = layout_of(view, state, width, height);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipTextArea area = layout.panes[p];
         panes[p] = (DipRect){area.column, 2 * area.row, area.columns, 2 * area.rows};
@@ -75,11 +77,11 @@ void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, 
 // Writes a pane's name, its frame time (or that its picture is copied) and its settings.
 static void draw_label(DipTextView *view, const DipPreviewState *state, int pane, DipTextArea area,
                        const DipPaneFigures *figures) {
-    static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
     const int end = area.column + area.columns;
     char text[256];
-    int column = dip_text_put(&view->screen, 0, area.column + 1, end,
-                              state->edited[pane] ? dip_text_accent : dip_text_white, names[pane]);
+    int column =
+        dip_text_put(&view->screen, 0, area.column + 1, end,
+                     state->edited[pane] ? dip_text_accent : dip_text_white, dip_pane_titles[pane]);
     if (figures->copied) {
         snprintf(text, sizeof text, "  copied");
     } else if (figures->fps > 0 && area.columns >= 60) {
@@ -142,7 +144,8 @@ static void format_place(const DipPreviewState *state, char *text, size_t size_b
 // path or the scene with its time, or that the camera is free.
 static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
     const int columns = view->screen.columns;
-    const bool settings = !state->panel && !state->show_costs;
+    const bool times = dip_preview_shows_times(state);
+    const bool settings = !times && !state->show_costs;
     char place[128];
     int column = 1;
     dip_text_screen_fill(&view->screen, (DipTextArea){0, row, columns, 1}, bar.paper);
@@ -154,7 +157,7 @@ static void draw_bar(DipTextView *view, const DipPreviewState *state, int row) {
         DipTextColours colours;
     } names[] = {
         {"↓ Settings", settings ? bar_title : bar},
-        {"   R Times", state->panel ? bar_accent : bar},
+        {"   R Times", times ? bar_accent : bar},
         {"   U Costs", state->show_costs ? bar_accent : bar},
         {"   F1 Keys", state->help ? bar_accent : bar},
     };
@@ -184,7 +187,7 @@ static void draw_keys(DipTextView *view, const DipPreviewState *state, int row) 
 
 bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int width, int height,
                         const DipPaneFigures figures[DIP_PANE_COUNT], DipError *err) {
-    const DipTextLayout layout = dip_text_view_layout(view, state, width, height);
+    const DipTextLayout layout = layout_of(view, state, width, height);
     if (!dip_text_screen_begin(&view->screen, layout.columns, layout.rows, err)) {
         return false;
     }
@@ -200,7 +203,7 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
         dip_text_screen_fill(&view->screen, layout.body, dip_text_white.paper);
         if (state->show_costs) {
             dip_text_draw_costs(&view->screen, layout.body, state);
-        } else if (state->panel) {
+        } else if (dip_preview_shows_times(state)) {
             dip_text_draw_times(&view->screen, layout.body, &layout, figures);
         } else {
             dip_text_draw_settings(view, layout.body);
@@ -216,15 +219,11 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
 
 // --- events ------------------------------------------------------------------------------------
 
-static int edited_pane(const DipPreviewState *state) {
-    return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
-}
-
 // Gives the focused setting its next step (`by` is 1) or the step before (-1), in the order of
 // dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
     const int count = dip_setting_info(view->focus)->step_count;
-    const int now = state->quality[edited_pane(state)].step[view->focus];
+    const int now = state->quality[dip_preview_edited_pane(state)].step[view->focus];
     for (int i = 0; i < count; ++i) {
         if (dip_setting_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
             dip_preview_set_step(state, view->focus, dip_setting_step_at(view->focus, i + by),
@@ -244,7 +243,8 @@ static void move_focus(DipTextView *view, int by) {
 
 static bool press_key(DipTextView *view, DipPreviewState *state, const DipEvent *event,
                       int64_t now_ns) {
-    const bool settings_show = !state->help && !state->panel && !state->show_costs;
+    const bool settings_show =
+        !state->help && !dip_preview_shows_times(state) && !state->show_costs;
     if (!settings_show || (event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT)) {
         return false;
     }

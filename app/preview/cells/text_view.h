@@ -43,10 +43,6 @@ typedef struct DipTextView {
 
 void dip_text_view_free(DipTextView *view);
 
-// Lays out the screen for a picture of the given size in pixels.
-DipTextLayout dip_text_view_layout(const DipTextView *view, const DipPreviewState *state, int width,
-                                   int height);
-
 // Fills in the rectangles of the panes, in pixels of the picture.
 void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, int width,
                          int height, DipRect panes[DIP_PANE_COUNT]);

@@ -274,7 +274,6 @@ static bool act(const DipPreviewMoment *moment, const DipControlRequest *request
         return resize(moment, request, reply, err);
     case DIP_CONTROL_PANEL:
         state->tools.bare = (request->show & DIP_CONTROL_OFF) != 0;
-        dip_preview_follow_dock(state);
         return true;
     case DIP_CONTROL_PICK:
         return pick(moment, request, reply, err);

@@ -198,17 +198,12 @@ const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job) {
     return &job->result;
 }
 
-int dip_error_job_next_samples(const DipErrorJob *job) {
-    int samples = 0;
-    if (job->truth && !(job->judges && dip_truth_job_truth(job->truth))) {
-        dip_truth_job_drawn(job->truth, &samples);
+double dip_error_job_drawn(const DipErrorJob *job, int *next_samples) {
+    const double drawn = job->truth ? dip_truth_job_drawn(job->truth, next_samples) : 0.0;
+    if (!job->truth || (job->judges && dip_truth_job_truth(job->truth))) {
+        *next_samples = 0;
     }
-    return samples;
-}
-
-double dip_error_job_drawn(const DipErrorJob *job) {
-    int samples;
-    return job->truth ? dip_truth_job_drawn(job->truth, &samples) : 0.0;
+    return drawn;
 }
 
 const float *dip_error_job_flip(const DipErrorJob *job, int pane) {

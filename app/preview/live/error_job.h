@@ -69,12 +69,10 @@ DipStep dip_error_job_step(DipErrorJob *job, DipError *err);
 
 const DipErrorJobResult *dip_error_job_result(const DipErrorJob *job);
 
-// Returns the samples per pixel, both halves together, of the truth that the next step works on, or
-// 0 if the next step draws no truth.
-int dip_error_job_next_samples(const DipErrorJob *job);
-
-// Returns how much of the truth that is being drawn is done, from 0 to 1.
-double dip_error_job_drawn(const DipErrorJob *job);
+// Returns how much of the truth that is being drawn is done, from 0 to 1. Sets *next_samples to the
+// samples per pixel, both halves together, of the truth that the next step works on, or to 0 if the
+// next step draws no truth.
+double dip_error_job_drawn(const DipErrorJob *job, int *next_samples);
 
 // The next two functions return the pictures from which the result was measured. The pictures are
 // complete between the step that returned RESULT and the next step; later steps overwrite them.

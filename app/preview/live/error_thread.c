@@ -190,17 +190,19 @@ static void pass_pictures(Worker *worker) {
 static bool must_wait(const Worker *worker) {
     const DipErrorThread *owner = worker->owner;
     const bool fresh = owner->asked_number != worker->number;
-    return owner->resting ||
-           (!fresh && (worker->idle ||
-                       (worker->job && dip_error_job_next_samples(worker->job) > owner->limit)));
+    int next_samples = 0;
+    if (worker->job) {
+        dip_error_job_drawn(worker->job, &next_samples);
+    }
+    return owner->resting || (!fresh && (worker->idle || next_samples > owner->limit));
 }
 
 // Tells the owner how much of the truth is drawn. The caller holds the lock.
 static void tell_progress(const Worker *worker) {
     DipErrorReading *reading = &worker->owner->reading;
     const bool works = worker->job && !worker->idle && !must_wait(worker);
-    reading->next_samples = works ? dip_error_job_next_samples(worker->job) : 0;
-    reading->drawn = works ? dip_error_job_drawn(worker->job) : 0.0;
+    reading->next_samples = 0;
+    reading->drawn = works ? dip_error_job_drawn(worker->job, &reading->next_samples) : 0.0;
 }
 
 // Waits while there is nothing to do. Sets *fresh if there is a new still. Returns false if the

@@ -5,6 +5,7 @@
 #include "app/cost/plan.h"
 #include "app/preview/loop/reload.h"
 #include "app/preview/tools/compare.h"
+#include "renderer/base/clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +15,8 @@ static const int64_t ns_per_ms = 1000000;
 enum { IDLE_WAIT_MS = 30 };
 
 int64_t dip_loop_clock_ns(const DipPreview *preview) {
-    return preview->def.display.now_ns(preview->def.display.context);
+    const DipDisplay *display = &preview->def.display;
+    return display->now_ns ? display->now_ns(display->context) : dip_clock_ns();
 }
 
 static void follow_refresh(DipPreview *preview) {

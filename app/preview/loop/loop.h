@@ -55,10 +55,10 @@ typedef struct DipPreviewDef {
     bool hides_panel;   // The window shows nothing but the panes at first.
     const char *notice; // Notice that shows at first; may be NULL. Copied.
 
-    // Loads session->scene_def, which is needed to measure errors. Called only when the window,
-    // another program or prices first need errors, since loading takes time and memory.
-    bool (*load_scene_def)(void *context, DipError *err);
-    void *context;
+    // Loads session->scene_def, which is needed to measure errors (dip_session_keep_model). Called
+    // only when the window, another program or prices first need errors, since loading takes time
+    // and memory.
+    bool (*load_scene_def)(DipSession *session, DipError *err);
 } DipPreviewDef;
 
 // Creates a preview. Fails with MISSING if the display needs a font and there is none, or with

@@ -37,7 +37,7 @@ static bool prices_need_truth(const DipPreview *preview) {
 
 // Returns whether the window shows the panes' errors or the truth.
 static bool looks_at_errors(const DipPreview *preview) {
-    return preview->state.panel || dip_maps_need_errors(&preview->state.tools);
+    return dip_preview_shows_times(&preview->state) || dip_maps_need_errors(&preview->state.tools);
 }
 
 // Returns whether the user or another program asks for errors or the truth.
@@ -72,13 +72,12 @@ static void close_errors(DipPreview *preview) {
     preview->state.tools.open = preview->state.wants_errors = false;
     dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
     preview->resized = true;
-    dip_preview_follow_dock(&preview->state);
 }
 
 static bool create_errors(DipPreview *preview, int64_t now_ns) {
-    const DipSession *session = preview->def.session;
+    DipSession *session = preview->def.session;
     DipError err;
-    if (!preview->errors && preview->def.load_scene_def(preview->def.context, &err)) {
+    if (!preview->errors && preview->def.load_scene_def(session, &err)) {
         preview->errors = dip_error_thread_create(&session->scene_def, &session->reflection,
                                                   preview->def.cache, &err);
     }

@@ -103,8 +103,7 @@ static bool handle_in_text(const DipViewInput *input, const DipEvent *event) {
     const DipLayout layout = dip_view_layout(input);
     for (int p = 0; p < DIP_PANE_COUNT && event->kind == DIP_EVENT_MOUSE_DOWN; ++p) {
         if (dip_rect_holds(layout.panes[p], event->x, event->y)) {
-            state->edited[p] = true;
-            state->edited[1 - p] = false;
+            dip_preview_edit_only(state, p);
             return true;
         }
     }

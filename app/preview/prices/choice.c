@@ -15,11 +15,6 @@
 static const double shares[DIP_MEASURED_PRESETS - 1] = {0.5, 0.8, 0.95};
 
 static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
-    static const DipChoiceState states[] = {
-        [DIP_PRICES_NO_TIMES] = DIP_CHOICE_NO_TIMES,
-        [DIP_PRICES_NO_ERRORS] = DIP_CHOICE_NO_ERRORS,
-        [DIP_PRICES_KNOWN] = DIP_CHOICE_KNOWN,
-    };
     const DipPriceView *view = prices ? dip_prices_view(prices) : NULL;
     const DipCostReport *report = view ? dip_price_view_report(view) : NULL;
     free(choice->own_list);
@@ -27,16 +22,13 @@ static void take_candidates(DipPreviewChoice *choice, const DipPrices *prices) {
     choice->live = !prices || dip_prices_are_rough(prices);
     choice->of_like = report && (choice->live || dip_cost_is_view(report));
     choice->candidates = (DipCandidates){0};
-    choice->state = DIP_CHOICE_NO_TIMES;
+    choice->known = DIP_PRICES_NO_TIMES;
     if (choice->of_like) {
-        choice->state = states[dip_price_candidates(view, &choice->like, &choice->candidates)];
+        choice->known = dip_price_candidates(view, &choice->like, &choice->candidates);
         choice->own_list = choice->candidates.list;
     } else if (report && report->choice.candidates.count > 0) {
         choice->candidates = report->choice.candidates;
-        choice->state = DIP_CHOICE_KNOWN;
-    }
-    if (choice->state == DIP_CHOICE_KNOWN && choice->candidates.disturbed) {
-        choice->state = DIP_CHOICE_DISTURBED;
+        choice->known = DIP_PRICES_KNOWN;
     }
 }
 
@@ -115,13 +107,13 @@ const DipCandidate *dip_preview_advised(const DipPreviewChoice *choice) {
 void dip_preview_choice_why(const DipPreviewChoice *choice, const char *progress, char *text,
                             size_t size_bytes) {
     char ms[DIP_NUMBER_BYTES];
-    if (!choice || !choice->is_made || (choice->live && choice->state == DIP_CHOICE_NO_TIMES)) {
+    if (!choice || !choice->is_made || (choice->live && choice->known == DIP_PRICES_NO_TIMES)) {
         snprintf(text, size_bytes, "Times are measured while the view rests. %s", progress);
-    } else if (choice->state == DIP_CHOICE_NO_TIMES) {
+    } else if (choice->known == DIP_PRICES_NO_TIMES) {
         snprintf(text, size_bytes, "The report has no combinations with times and errors.");
-    } else if (choice->state == DIP_CHOICE_NO_ERRORS) {
+    } else if (choice->known == DIP_PRICES_NO_ERRORS) {
         snprintf(text, size_bytes, "Errors are measured while the view rests. %s", progress);
-    } else if (choice->state == DIP_CHOICE_DISTURBED) {
+    } else if (choice->candidates.disturbed) {
         snprintf(text, size_bytes,
                  "The machine was too busy while the %s measured, so nothing is advised.",
                  choice->live ? "times were" : "report was");

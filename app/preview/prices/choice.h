@@ -7,13 +7,6 @@
 
 #include "app/preview/prices/prices.h"
 
-typedef enum DipChoiceState {
-    DIP_CHOICE_NO_TIMES,  // Times are missing, so nothing can be chosen.
-    DIP_CHOICE_NO_ERRORS, // Errors are missing, so nothing can be chosen.
-    DIP_CHOICE_DISTURBED, // The times are wrong, because the machine was too busy.
-    DIP_CHOICE_KNOWN
-} DipChoiceState;
-
 // Number of presets that follow from measurements. The possible gain is how much less error the
 // best settings within the budget have than the fastest settings of all. Each preset is the fastest
 // combination of settings that reaches a certain share of this gain.
@@ -21,7 +14,7 @@ enum { DIP_MEASURED_PRESETS = 4 };
 
 // Zero-initialise.
 typedef struct DipPreviewChoice {
-    DipChoiceState state;
+    DipPricesKnown known;     // Nothing can be chosen unless this is DIP_PRICES_KNOWN.
     bool live;                // The times come from live prices: they are mean times of this view.
     DipCandidates candidates; // Measured by the report, or priced from one picture.
     int *front;               // Indices of the candidates on the Pareto front (dip_front). Owned.

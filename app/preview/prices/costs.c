@@ -70,13 +70,6 @@ void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]
              report->height, report->threads, report->threads == 1 ? "" : "s", report->isa);
 }
 
-void dip_costs_make(DipCosts *costs, const DipCostReport *report) {
-    *costs = (DipCosts){.row_count = report->sweep_count};
-    for (int i = 0; i < report->sweep_count; i++) {
-        costs->rows[i] = dip_costs_row(report, &report->sweeps[i]);
-    }
-}
-
 static bool read_report(DipCostReport *report, DipPrices *prices, const char *file,
                         const char *scene, DipError *err) {
     return dip_cost_read_report(file, report, err) &&

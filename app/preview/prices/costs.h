@@ -25,17 +25,11 @@ typedef struct DipCostsRow {
     int step_count;
 } DipCostsRow;
 
-typedef struct DipCosts {
-    DipCostsRow rows[DIP_COST_MAX_SWEEPS];
-    int row_count;
-} DipCosts;
-
 // Writes the scene, size, threads and instruction set of a report.
 enum { DIP_COSTS_HEADING = 256 };
 void dip_costs_heading(const DipCostReport *report, char text[DIP_COSTS_HEADING]);
 
 DipCostsRow dip_costs_row(const DipCostReport *report, const DipCostSweep *sweep);
-void dip_costs_make(DipCosts *costs, const DipCostReport *report);
 
 // Returns whether a pane's settings include the given step of the row's setting. In the rows of
 // adaptive AA and of its group size, the settings must also have the step's number of samples and,

@@ -89,10 +89,6 @@ static const char *const explanations[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
                               "Each mip level of a colour texture shows as a flat colour."},
 };
 
-const char *dip_step_explanation(DipSetting setting, int step) {
-    return explanations[setting][step];
-}
-
 void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]) {
     dip_ms_number(ms, trust == DIP_PRICE_TRUST_DOUBTFUL, budget_ms, "\u2212", text);
 }
@@ -196,7 +192,7 @@ void dip_step_tip(DipSetting setting, int step, const DipPrice *price, double bu
     char cost[240];
     format_price(price, budget_ms, cost, sizeof cost);
     snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s",
-             dip_setting_info(setting)->labels[step], dip_step_explanation(setting, step),
+             dip_setting_info(setting)->labels[step], explanations[setting][step],
              why[0] ? "\n" : "", why, setting == DIP_SETTING_MIPDEBUG ? "" : cost,
              price->has_flip ? "\nFLIP is the error that people see, from 0 (the same picture as "
                                "the converged one) to 1. A minus sign is a gain."

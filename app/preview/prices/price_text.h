@@ -13,9 +13,6 @@
 
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 
-// Returns a sentence about what a step does.
-const char *dip_step_explanation(DipSetting setting, int step);
-
 // Writes a time without its unit as dip_ms_number does (app/report/words.h): "8.4", or "8?" if it
 // is doubtful. Rounding never carries the time over the budget.
 void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]);

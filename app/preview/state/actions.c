@@ -1,4 +1,5 @@
 // Carries out the user's actions: one function for each action, and a table of these functions.
+// state_settings.c and pilot.c define some of the functions (state_private.h).
 #include "app/preview/state/pilot.h"
 #include "app/preview/state/state_private.h"
 
@@ -6,64 +7,30 @@
 
 static const int64_t ns_per_ms = 1000000;
 
-// The parameters of dip_preview_act, as each action's function gets them.
-typedef struct Act {
-    DipPreviewState *state;
-    int argument;
-    bool reverse;
-    int64_t now_ns;
-} Act;
-
-// --- settings ------------------------------------------------------------------------------------
-
-static void undo(const Act *act) {
-    dip_state_undo(act->state, act->reverse, act->now_ns);
-}
-
-static void choose_preset(const Act *act) {
-    dip_state_choose_preset(act->state, (DipPreset)act->argument, act->now_ns);
-}
-
-static void change_setting(const Act *act) {
-    dip_state_change_setting(act->state, (DipSetting)act->argument, act->reverse, act->now_ns);
-}
-
-static void choose_pane(const Act *act) {
-    dip_state_choose_pane(act->state, act->now_ns);
-}
-
-static void apply(const Act *act) {
-    dip_state_apply(act->state, act->now_ns);
-}
-
-static void take_advice(const Act *act) {
-    dip_state_take_advice(act->state, act->reverse, act->now_ns);
-}
-
 // --- time ----------------------------------------------------------------------------------------
 
-static void pause_or_play(const Act *act) {
+static void pause_or_play(const DipAct *act) {
     DipPreviewState *state = act->state;
     state->paused = !state->paused;
     dip_preview_notice(state, act->now_ns, state->paused ? "Paused" : "Playing");
 }
 
-static void step_by(const Act *act, int64_t by_ns) {
+static void step_by(const DipAct *act, int64_t by_ns) {
     DipPreviewState *state = act->state;
     state->paused = true;
     dip_preview_seek(state, state->play_ns + by_ns);
     dip_preview_notice(state, act->now_ns, "Paused");
 }
 
-static void step_on(const Act *act) {
+static void step_on(const DipAct *act) {
     step_by(act, act->state->step_ns);
 }
 
-static void step_back(const Act *act) {
+static void step_back(const DipAct *act) {
     step_by(act, -act->state->step_ns);
 }
 
-static void seek(const Act *act) {
+static void seek(const DipAct *act) {
     const int64_t by_ns = act->argument * ns_per_ms;
     dip_preview_seek(act->state, act->state->play_ns + (act->reverse ? -by_ns : by_ns));
 }
@@ -88,14 +55,15 @@ static void play_path(DipPreviewState *state, int category, int64_t now_ns) {
     ++state->scene_changes;
 }
 
-static void choose_path(const Act *act) {
+static void choose_path(const DipAct *act) {
     play_path(act->state, act->argument, act->now_ns);
 }
 
-// Chooses the next category in the given direction (1 or -1) whose path is another one than the
-// path that plays. Several categories may share a path.
-static void step_path(const Act *act, int direction) {
+// Chooses the next category (reversed: the category before) whose path is another one than the path
+// that plays. Several categories may share a path.
+static void next_path(const DipAct *act) {
     DipPreviewState *state = act->state;
+    const int direction = act->reverse ? -1 : 1;
     if (state->shows_gallery) { // A scene of the gallery has only one path, so another scene shows.
         state->scene_step = direction;
         ++state->scene_changes;
@@ -114,16 +82,8 @@ static void step_path(const Act *act, int direction) {
     dip_preview_notice(state, act->now_ns, "There is only one path");
 }
 
-static void next_path(const Act *act) {
-    step_path(act, act->reverse ? -1 : 1);
-}
-
-static void previous_path(const Act *act) {
-    step_path(act, -1);
-}
-
 // Asks for an animation of the models, or for none if the argument is -1.
-static void choose_animation(const Act *act) {
+static void choose_animation(const DipAct *act) {
     DipPreviewState *state = act->state;
     const DipSessionAnimations *animations = state->animations;
     const int index = act->argument;
@@ -135,12 +95,12 @@ static void choose_animation(const Act *act) {
     }
 }
 
-static void next_scene(const Act *act) {
+static void next_scene(const DipAct *act) {
     act->state->scene_step = act->reverse ? -1 : 1;
     ++act->state->scene_changes;
 }
 
-static void change_look(const Act *act) {
+static void change_look(const DipAct *act) {
     DipPreviewState *state = act->state;
     if (!state->shows_gallery) {
         dip_preview_notice(state, act->now_ns, "Only scenes of the gallery have variants");
@@ -152,7 +112,7 @@ static void change_look(const Act *act) {
 
 // --- the camera ----------------------------------------------------------------------------------
 
-static void free_camera(const Act *act) {
+static void free_camera(const DipAct *act) {
     DipPreviewState *state = act->state;
     state->manual = !state->manual;
     dip_preview_notice(state, act->now_ns,
@@ -161,24 +121,8 @@ static void free_camera(const Act *act) {
     ++state->scene_changes;
 }
 
-static void reset_camera(const Act *act) {
-    dip_pilot_reset(act->state, act->now_ns);
-}
-
-static void orbit(const Act *act) {
-    dip_pilot_orbit(act->state, act->now_ns);
-}
-
-static void change_speed(const Act *act) {
+static void change_speed(const DipAct *act) {
     dip_pilot_change_speed(act->state, act->reverse ? -act->argument : act->argument, act->now_ns);
-}
-
-static void choose_path_end(const Act *act) {
-    dip_pilot_choose_end(act->state, act->reverse ? -act->argument : act->argument, act->now_ns);
-}
-
-static void edit_path(const Act *act) {
-    dip_pilot_edit_path(act->state, (DipPathEdit)act->argument, act->now_ns);
 }
 
 // --- the dock and the tools ----------------------------------------------------------------------
@@ -191,26 +135,26 @@ static void open_tab(DipPreviewState *state, DipTab tab) {
     tools->tab = tab;
 }
 
-static void open_tab_of(const Act *act) {
+static void open_tab_of(const DipAct *act) {
     open_tab(act->state, (DipTab)act->argument);
 }
 
-static void open_times(const Act *act) {
+static void open_times(const DipAct *act) {
     open_tab(act->state, DIP_TAB_TIMES);
 }
 
-static void fold_dock(const Act *act) {
+static void fold_dock(const DipAct *act) {
     act->state->tools.open = !act->state->tools.open;
     act->state->tools.bare = false;
 }
 
-static void show_panes_only(const Act *act) {
+static void show_panes_only(const DipAct *act) {
     bool *bare = &act->state->tools.bare;
     *bare = !*bare;
     dip_preview_notice(act->state, act->now_ns, *bare ? "Panes only" : "Panes with the panel");
 }
 
-static void use_loupe(const Act *act) {
+static void use_loupe(const DipAct *act) {
     DipToolState *tools = &act->state->tools;
     tools->loupe = !tools->loupe;
     tools->open = tools->loupe || tools->open;
@@ -218,13 +162,13 @@ static void use_loupe(const Act *act) {
     tools->tab = tools->loupe ? DIP_TAB_LOUPE : DIP_TAB_SETTINGS;
 }
 
-static void zoom(const Act *act) {
+static void zoom(const DipAct *act) {
     dip_tool_state_zoom(&act->state->tools, act->reverse ? -1 : 1);
 }
 
 // Returns a tool's next value (reversed: the value before) in a ring of `count` values, and opens
 // the tool's tab.
-static int next_of(const Act *act, DipTab tab, int value, int count) {
+static int next_of(const DipAct *act, DipTab tab, int value, int count) {
     DipToolState *tools = &act->state->tools;
     tools->tab = tab;
     tools->open = true;
@@ -232,13 +176,13 @@ static int next_of(const Act *act, DipTab tab, int value, int count) {
     return (value + (act->reverse ? count - 1 : 1)) % count;
 }
 
-static void next_comparison(const Act *act) {
+static void next_comparison(const DipAct *act) {
     DipToolState *tools = &act->state->tools;
     tools->comparison =
         (DipComparison)next_of(act, DIP_TAB_COMPARE, (int)tools->comparison, DIP_COMPARISON_COUNT);
 }
 
-static void next_map(const Act *act) {
+static void next_map(const DipAct *act) {
     DipToolState *tools = &act->state->tools;
     tools->map = (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT);
     if (tools->map != DIP_MAP_NONE) {
@@ -247,7 +191,7 @@ static void next_map(const Act *act) {
 }
 
 // Doubles or halves the brightness if a map is chosen. Otherwise changes the gain or the divider.
-static void adjust(const Act *act) {
+static void adjust(const DipAct *act) {
     enum { MOST_BRIGHTNESS = 1 << (DIP_BRIGHTNESS_COUNT - 1) };
     DipToolState *tools = &act->state->tools;
     if (tools->map != DIP_MAP_NONE) {
@@ -260,71 +204,70 @@ static void adjust(const Act *act) {
     }
 }
 
-static void blink(const Act *act) {
+static void blink(const DipAct *act) {
     act->state->tools.blinked = !act->state->tools.blinked;
 }
 
 // --- sheets, files and the window ----------------------------------------------------------------
 
-static void show_help(const Act *act) {
+static void show_help(const DipAct *act) {
     act->state->help = !act->state->help;
     act->state->help_words[0] = '\0';
 }
 
-static void show_costs(const Act *act) {
+static void show_costs(const DipAct *act) {
     act->state->show_costs = !act->state->show_costs;
 }
 
-static void save_screenshot(const Act *act) {
+static void save_screenshot(const DipAct *act) {
     act->state->screenshot = true;
     act->state->plain_screenshot = act->reverse;
 }
 
-static void save_pose(const Act *act) {
+static void save_pose(const DipAct *act) {
     act->state->save_pose = true;
 }
 
-static void fill_screen(const Act *act) {
+static void fill_screen(const DipAct *act) {
     act->state->full_screen = !act->state->full_screen;
 }
 
-static void quit(const Act *act) {
+static void quit(const DipAct *act) {
     act->state->quit = true;
 }
 
 // --- all actions ---------------------------------------------------------------------------------
 
 static const struct {
-    void (*carry_out)(const Act *act);
+    void (*carry_out)(const DipAct *act);
     bool needs_window; // A terminal does not show what the action does.
 } actions[DIP_ACTION_COUNT] = {
-    [DIP_ACTION_SETTING] = {.carry_out = change_setting},
-    [DIP_ACTION_NEXT_PANE] = {.carry_out = choose_pane},
-    [DIP_ACTION_APPLY] = {.carry_out = apply},
+    [DIP_ACTION_SETTING] = {.carry_out = dip_state_change_setting},
+    [DIP_ACTION_NEXT_PANE] = {.carry_out = dip_state_choose_pane},
+    [DIP_ACTION_APPLY] = {.carry_out = dip_state_apply},
     [DIP_ACTION_PAUSE] = {.carry_out = pause_or_play},
     [DIP_ACTION_STEP] = {.carry_out = step_on},
     [DIP_ACTION_STEP_BACK] = {.carry_out = step_back},
     [DIP_ACTION_NEXT_PATH] = {.carry_out = next_path},
-    [DIP_ACTION_PREVIOUS_PATH] = {.carry_out = previous_path},
     [DIP_ACTION_PATH] = {.carry_out = choose_path},
     [DIP_ACTION_ANIMATION] = {.carry_out = choose_animation},
     [DIP_ACTION_NEXT_SCENE] = {.carry_out = next_scene},
     [DIP_ACTION_LOOK] = {.carry_out = change_look},
     [DIP_ACTION_CAMERA] = {.carry_out = free_camera},
-    [DIP_ACTION_CAMERA_BACK] = {.carry_out = reset_camera},
-    [DIP_ACTION_ORBIT] = {.carry_out = orbit},
+    [DIP_ACTION_CAMERA_BACK] = {.carry_out = dip_pilot_reset},
+    [DIP_ACTION_ORBIT] = {.carry_out = dip_pilot_orbit},
     [DIP_ACTION_SPEED] = {.carry_out = change_speed},
-    [DIP_ACTION_PATH_END] = {.carry_out = choose_path_end},
-    [DIP_ACTION_PATH_EDIT] = {.carry_out = edit_path, .needs_window = true},
+    [DIP_ACTION_PATH_END] = {.carry_out = dip_pilot_choose_end},
+    [DIP_ACTION_PATH_EDIT] = {.carry_out = dip_pilot_edit_path, .needs_window = true},
     [DIP_ACTION_HELP] = {.carry_out = show_help},
     [DIP_ACTION_PANEL] = {.carry_out = open_times},
     [DIP_ACTION_COSTS] = {.carry_out = show_costs},
-    [DIP_ACTION_ADVICE] = {.carry_out = take_advice},
+    [DIP_ACTION_ADVICE] = {.carry_out = dip_state_take_advice},
     [DIP_ACTION_TAB] = {.carry_out = open_tab_of, .needs_window = true},
     [DIP_ACTION_DOCK] = {.carry_out = fold_dock, .needs_window = true},
     [DIP_ACTION_BARE] = {.carry_out = show_panes_only, .needs_window = true},
-    [DIP_ACTION_UNDO] = {.carry_out = undo},
-    [DIP_ACTION_PRESET] = {.carry_out = choose_preset},
+    [DIP_ACTION_UNDO] = {.carry_out = dip_state_undo},
+    [DIP_ACTION_PRESET] = {.carry_out = dip_state_choose_preset},
     [DIP_ACTION_SEEK] = {.carry_out = seek},
     [DIP_ACTION_LOUPE] = {.carry_out = use_loupe, .needs_window = true},
     [DIP_ACTION_ZOOM] = {.carry_out = zoom, .needs_window = true},
@@ -344,18 +287,17 @@ bool dip_preview_needs_window(DipAction action) {
 
 void dip_preview_act(DipPreviewState *state, DipAction action, int argument, bool reverse,
                      int64_t now_ns) {
-    const Act act = {state, argument, reverse, now_ns};
+    const DipAct act = {state, argument, reverse, now_ns};
     if (state->in_terminal && actions[action].needs_window) {
         dip_preview_notice(state, now_ns, "This key acts in a window, not in a terminal");
         return;
     }
     actions[action].carry_out(&act);
-    dip_preview_follow_dock(state);
 }
 
-void dip_preview_follow_dock(DipPreviewState *state) {
+bool dip_preview_shows_times(const DipPreviewState *state) {
     const DipToolState *tools = &state->tools;
-    state->panel = tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
+    return tools->open && !tools->bare && tools->tab == DIP_TAB_TIMES;
 }
 
 void dip_preview_scale_ui(DipPreviewState *state, double by, int64_t now_ns) {

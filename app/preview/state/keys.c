@@ -55,7 +55,7 @@ const DipKeyRow dip_key_rows[] = {
     HELD('.', STEP, 0, false, ".  ,", "Step one frame"),
     HELD(',', STEP_BACK, 0, false, NULL, NULL),
     KEY('p', DIP_KEYCODE_RIGHT, NEXT_PATH, 0, "P", "Next path"),
-    KEY(DIP_KEYCODE_LEFT, 0, PREVIOUS_PATH, 0, NULL, NULL),
+    {DIP_KEYCODE_LEFT, 0, DIP_ACTION_NEXT_PATH, .reverse = true},
     PATH(0),
     PATH(1),
     PATH(2),

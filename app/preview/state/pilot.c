@@ -1,6 +1,8 @@
 // Turns what actions and drags ask for into movements of the free camera.
 #include "app/preview/state/pilot.h"
 
+#include "app/preview/state/state_private.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -21,12 +23,14 @@ double dip_flight_speed(const DipFlight *flight) {
     return flight->base_speed_m_per_s * exp2((double)flight->speed_steps / STEPS_TO_DOUBLE);
 }
 
-bool dip_flight_should_orbit(const DipSession *session) {
+// Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
+// at from all sides.
+static bool should_orbit(const DipSession *session) {
     return session->options && session->options->model_count > 0 && !session->shows_gallery;
 }
 
 double dip_flying_speed(const DipSession *session) {
-    if (!dip_flight_should_orbit(session) || !session->scene) {
+    if (!should_orbit(session) || !session->scene) {
         return courtyard_speed_m_per_s;
     }
     float low[3];
@@ -47,7 +51,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
             middle[i] = 0.5 * ((double)low[i] + high[i]);
         }
     }
-    if (dip_flight_should_orbit(session)) {
+    if (should_orbit(session)) {
         for (int i = 0; i < 3; ++i) {
             centre_world[i] = middle[i];
         }
@@ -57,7 +61,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
 }
 
 void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
-    flight->orbits = dip_flight_should_orbit(session);
+    flight->orbits = should_orbit(session);
     flight->speed_steps = 0;
     flight->knows_centre = false;
 }
@@ -88,21 +92,25 @@ void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns) {
     }
 }
 
-void dip_pilot_choose_end(DipPreviewState *state, int step, int64_t now_ns) {
+void dip_pilot_choose_end(const DipAct *act) {
     static const char *const texts[DIP_CAMPATH_END_COUNT] = {[DIP_CAMPATH_END_loop] = "loop",
                                                              [DIP_CAMPATH_END_once] = "play once",
                                                              [DIP_CAMPATH_END_back] =
                                                                  "there and back"};
+    DipPreviewState *state = act->state;
     DipCamTrack *track = state->track;
+    const int step = act->reverse ? -act->argument : act->argument;
     const int64_t path_ns = dip_preview_path_ns(state);
     const int end = ((int)track->end + step + DIP_CAMPATH_END_COUNT) % DIP_CAMPATH_END_COUNT;
     dip_camtrack_set_end(track, (DipCamPathEnd)end);
     dip_camtrack_restart(track, state->play_ns - path_ns); // The camera stays where it is.
-    dip_preview_notice(state, now_ns, "At the end of paths: %s", texts[end]);
+    dip_preview_notice(state, act->now_ns, "At the end of paths: %s", texts[end]);
     ++state->scene_changes;
 }
 
-void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns) {
+void dip_pilot_edit_path(const DipAct *act) {
+    DipPreviewState *state = act->state;
+    const DipPathEdit edit = (DipPathEdit)act->argument;
     if (!state->editor) {
         return;
     }
@@ -111,9 +119,9 @@ void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_n
     const bool moves =
         edit == DIP_PATH_EDIT_NEXT || edit == DIP_PATH_EDIT_BEFORE || edit == DIP_PATH_EDIT_FLY;
     if (done && moves) {
-        dip_pilot_make_free(state, now_ns);
+        dip_pilot_make_free(state, act->now_ns);
     }
-    dip_preview_notice(state, now_ns, "%s", state->editor->said);
+    dip_preview_notice(state, act->now_ns, "%s", state->editor->said);
 }
 
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns) {
@@ -128,19 +136,21 @@ void dip_pilot_step(DipPreviewState *state, int right, int forward, int64_t now_
     state->flight.forward_steps += forward;
 }
 
-void dip_pilot_reset(DipPreviewState *state, int64_t now_ns) {
+void dip_pilot_reset(const DipAct *act) {
+    DipPreviewState *state = act->state;
     state->flight.reset = state->manual;
-    dip_preview_notice(state, now_ns,
+    dip_preview_notice(state, act->now_ns,
                        state->manual
                            ? "The free camera has the pose of its path; C follows the path"
                            : "The camera follows its path");
 }
 
-void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns) {
+void dip_pilot_orbit(const DipAct *act) {
+    DipPreviewState *state = act->state;
     state->flight.orbits = state->manual ? !state->flight.orbits : state->flight.orbits;
-    dip_pilot_make_free(state, now_ns);
+    dip_pilot_make_free(state, act->now_ns);
     state->flight.knows_centre = false;
-    say_camera(state, now_ns);
+    say_camera(state, act->now_ns);
 }
 
 // --- the loop's turn -----------------------------------------------------------------------------

@@ -7,22 +7,8 @@
 #include "app/preview/state/controller.h"
 #include "app/preview/state/state.h"
 
-// Lets the next turn of the loop give the free camera the pose of its path. If the camera follows
-// its path, only shows a notice.
-void dip_pilot_reset(DipPreviewState *state, int64_t now_ns);
-
-// Makes the camera free. If it is free already, switches between dragging that turns it about a
-// point and dragging that turns it on the spot.
-void dip_pilot_orbit(DipPreviewState *state, int64_t now_ns);
-
 // Makes the free camera faster by `steps`; dip_flight_speed says what a step is.
 void dip_pilot_change_speed(DipPreviewState *state, int steps, int64_t now_ns);
-
-// Chooses what paths do at their end: goes on by `step` in the ring of DipCamPathEnd.
-void dip_pilot_choose_end(DipPreviewState *state, int step, int64_t now_ns);
-
-// Carries out an edit in the path editor (path_editor.h). Does nothing if there is no editor.
-void dip_pilot_edit_path(DipPreviewState *state, DipPathEdit edit, int64_t now_ns);
 
 // Chooses a key (a pose on the edited path, path_editor.h), and moves the free camera there.
 void dip_pilot_choose_key(DipPreviewState *state, size_t index, int64_t now_ns);
@@ -42,10 +28,6 @@ double dip_flight_speed(const DipFlight *flight);
 // that the user gave, a camera of this speed crosses the diagonal of the scene's bounding box in
 // four seconds, whatever the models' unit of length is. Otherwise the speed is 3.
 double dip_flying_speed(const DipSession *session);
-
-// Returns whether dragging orbits at first: the panes show models that the user gave, to be looked
-// at from all sides.
-bool dip_flight_should_orbit(const DipSession *session);
 
 // Writes the point that the camera orbits. If the panes show models that the user gave, this is the
 // middle of the scene's bounding box. In other scenes it is the point on the line of sight that is

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *const dip_pane_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
+
 static const int64_t default_step_ns = 33333333; // A thirtieth of a second.
 
 DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
@@ -24,6 +26,15 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                  .brightness = 1.0};
     state.budget_ms = state.refresh_ms = 1000.0 / 60.0;
     return state;
+}
+
+int dip_preview_edited_pane(const DipPreviewState *state) {
+    return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
+}
+
+void dip_preview_edit_only(DipPreviewState *state, int pane) {
+    state->edited[pane] = true;
+    state->edited[1 - pane] = false;
 }
 
 void dip_preview_notice(DipPreviewState *state, int64_t now_ns, const char *format, ...) {

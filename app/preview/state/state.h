@@ -27,7 +27,6 @@ typedef enum DipAction {
     DIP_ACTION_STEP,
     DIP_ACTION_STEP_BACK,
     DIP_ACTION_NEXT_PATH,
-    DIP_ACTION_PREVIOUS_PATH,
     DIP_ACTION_PATH,
     DIP_ACTION_ANIMATION,
     DIP_ACTION_NEXT_SCENE,
@@ -135,7 +134,6 @@ typedef struct DipPreviewState {
     const char *scene_look;  // Name of the gallery scene's variant; NULL if the panes show models.
     bool help;               // The help shows.
     char help_words[DIP_HELP_WORDS]; // If not empty, the help lists only keys with these words.
-    bool panel;                      // The lines with the panes' times, errors and work show.
     const DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
     bool show_costs;                 // The table of costs shows.
     DipPreviewChoice *choice;        // Settings to choose from (choice.h). Borrowed; may be NULL.
@@ -231,9 +229,18 @@ void dip_preview_step_frame_rate(DipPreviewState *state, int steps);
 // one.
 void dip_preview_follow_refresh(DipPreviewState *state, double refresh_ms);
 
-// Sets state->panel to whether the open dock (layout.h) shows the tab of times. Call it after a
-// change of state->tools.
-void dip_preview_follow_dock(DipPreviewState *state);
+// Returns whether the open dock (layout.h) shows the tab of times: the lines with the panes' times,
+// errors and work.
+bool dip_preview_shows_times(const DipPreviewState *state);
+
+// Returns the pane whose settings controls show and change: the requested pane, unless the user
+// edits only the current pane.
+int dip_preview_edited_pane(const DipPreviewState *state);
+
+// Lets the keys change the settings of one pane alone.
+void dip_preview_edit_only(DipPreviewState *state, int pane);
+
+extern const char *const dip_pane_titles[DIP_PANE_COUNT]; // "Current", "Requested"
 
 // Sets state->play_ns; a time below 0 becomes 0.
 void dip_preview_seek(DipPreviewState *state, int64_t play_ns);

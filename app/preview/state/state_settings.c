@@ -47,9 +47,11 @@ static void swap_settings(DipPreviewState *state, int slot) {
     ++state->scene_changes;
 }
 
-void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
+void dip_state_undo(const DipAct *act) {
+    DipPreviewState *state = act->state;
+    const bool reverse = act->reverse;
     if (reverse ? state->redo_count == 0 : state->undo_count == 0) {
-        dip_preview_notice(state, now_ns, reverse ? "Nothing to do again" : "Nothing to undo");
+        dip_preview_notice(state, act->now_ns, reverse ? "Nothing to do again" : "Nothing to undo");
         return;
     }
     if (reverse) {
@@ -61,7 +63,8 @@ void dip_state_undo(DipPreviewState *state, bool reverse, int64_t now_ns) {
         state->redo_count++;
         swap_settings(state, state->undo_count);
     }
-    dip_preview_notice(state, now_ns, reverse ? "Made the change again" : "Took the change back");
+    dip_preview_notice(state, act->now_ns,
+                       reverse ? "Made the change again" : "Took the change back");
 }
 
 // Shows a notice with the new step of a setting. While the camera follows a path, switches to the
@@ -133,23 +136,25 @@ void dip_preview_set_step(DipPreviewState *state, DipSetting setting, int step, 
     take_settings(state, wanted, setting, dip_setting_info(setting)->steps[step], now_ns);
 }
 
-void dip_state_change_setting(DipPreviewState *state, DipSetting setting, bool reverse,
-                              int64_t now_ns) {
+void dip_state_change_setting(const DipAct *act) {
+    DipPreviewState *state = act->state;
+    const DipSetting setting = (DipSetting)act->argument;
     const DipSettingInfo *info = dip_setting_info(setting);
     const char *step = NULL;
     DipQuality wanted[DIP_PANE_COUNT];
     memcpy(wanted, state->quality, sizeof wanted);
     for (int pane = 0; pane < DIP_PANE_COUNT; ++pane) {
-        if (state->edited[pane] && cycle(&wanted[pane], setting, reverse)) {
+        if (state->edited[pane] && cycle(&wanted[pane], setting, act->reverse)) {
             step = info->steps[wanted[pane].step[setting]];
         }
     }
     if (!step) {
-        dip_preview_notice(state, now_ns, "%s: no other step fits the other settings", info->title);
+        dip_preview_notice(state, act->now_ns, "%s: no other step fits the other settings",
+                           info->title);
         return;
     }
     state->open_setting = setting;
-    take_settings(state, wanted, setting, step, now_ns);
+    take_settings(state, wanted, setting, step, act->now_ns);
 }
 
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
@@ -159,8 +164,7 @@ void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality 
         remember(state);
         state->quality[pane] = *quality;
         dip_preview_describe(quality, true, text, sizeof text);
-        dip_preview_notice(state, now_ns, "%s: %s",
-                           pane == DIP_PANE_CURRENT ? "Current" : "Requested", text);
+        dip_preview_notice(state, now_ns, "%s: %s", dip_pane_titles[pane], text);
         ++state->scene_changes;
     }
 }
@@ -189,20 +193,22 @@ const char *dip_preview_preset_name(DipPreset preset) {
     return names[preset];
 }
 
-void dip_state_choose_preset(DipPreviewState *state, DipPreset preset, int64_t now_ns) {
+void dip_state_choose_preset(const DipAct *act) {
+    DipPreviewState *state = act->state;
+    const DipPreset preset = (DipPreset)act->argument;
     DipQuality quality;
     char why[DIP_NOTICE_SIZE];
     if (!dip_preview_preset(state, preset, &quality)) {
         dip_preview_choice_why(state->choice, "", why, sizeof why);
-        dip_preview_notice(state, now_ns, "%s: %.120s", dip_preview_preset_name(preset), why);
+        dip_preview_notice(state, act->now_ns, "%s: %.120s", dip_preview_preset_name(preset), why);
         return;
     }
-    dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
-    dip_preview_notice(state, now_ns, "Requested: %s", dip_preview_preset_name(preset));
+    dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, act->now_ns);
+    dip_preview_notice(state, act->now_ns, "Requested: %s", dip_preview_preset_name(preset));
 }
 
-void dip_state_choose_pane(DipPreviewState *state, int64_t now_ns) {
-    bool *edited = state->edited;
+void dip_state_choose_pane(const DipAct *act) {
+    bool *edited = act->state->edited;
     const bool both = edited[DIP_PANE_CURRENT] && edited[DIP_PANE_REQUESTED];
     const bool current_only = edited[DIP_PANE_CURRENT] && !both;
     edited[DIP_PANE_REQUESTED] = both || current_only;
@@ -210,12 +216,13 @@ void dip_state_choose_pane(DipPreviewState *state, int64_t now_ns) {
     const char *which = edited[0] && edited[1] ? "both panes"
                         : edited[0]            ? "the current pane"
                                                : "the requested pane";
-    dip_preview_notice(state, now_ns, "Keys change %s", which);
+    dip_preview_notice(act->state, act->now_ns, "Keys change %s", which);
 }
 
-void dip_state_apply(DipPreviewState *state, int64_t now_ns) {
-    dip_preview_set_quality(state, DIP_PANE_CURRENT, &state->quality[DIP_PANE_REQUESTED], now_ns);
-    dip_preview_notice(state, now_ns, "Copied requested to current");
+void dip_state_apply(const DipAct *act) {
+    dip_preview_set_quality(act->state, DIP_PANE_CURRENT, &act->state->quality[DIP_PANE_REQUESTED],
+                            act->now_ns);
+    dip_preview_notice(act->state, act->now_ns, "Copied requested to current");
 }
 
 // --- budgets and advice --------------------------------------------------------------------------
@@ -272,9 +279,11 @@ static void next_budget(DipPreviewState *state) {
     dip_preview_set_budget(state, list[(at + 1) % count]);
 }
 
-void dip_state_take_advice(DipPreviewState *state, bool other_budget, int64_t now_ns) {
+void dip_state_take_advice(const DipAct *act) {
+    DipPreviewState *state = act->state;
+    const int64_t now_ns = act->now_ns;
     char text[DIP_NOTICE_SIZE];
-    if (state->choice && other_budget) {
+    if (state->choice && act->reverse) {
         next_budget(state);
     }
     const DipCandidate *advised = dip_preview_advised(state->choice);

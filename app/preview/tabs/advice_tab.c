@@ -127,7 +127,9 @@ static void write_why_not(DipUi *ui, const DipWindow *window, DipRect *room) {
 
 static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advised, DipRect rect) {
     DipPreviewState *state = window->state;
-    const bool waits = state->choice->live && state->choice->state != DIP_CHOICE_KNOWN;
+    const DipPreviewChoice *choice = state->choice;
+    const bool waits =
+        choice->live && (choice->known != DIP_PRICES_KNOWN || choice->candidates.disturbed);
     if (waits && dip_preview_time_runs(state)) {
         if (dip_ui_button(ui, id_of(ID_TRY), rect, "Pause to measure", DIP_UI_PRIMARY,
                           "Pauses, so that the prices can be measured (Space).")) {

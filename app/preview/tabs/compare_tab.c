@@ -128,14 +128,12 @@ static void declare_difference(DipFlow *flow) {
 }
 
 static void declare_alone(DipFlow *flow) {
-    static const char *const names[DIP_PANE_COUNT] = {"Current", "Requested"};
     DipPreviewState *state = flow->window->state;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        if (dip_flow_choice(flow, ID_OPTION + (unsigned)p, names[p],
+        if (dip_flow_choice(flow, ID_OPTION + (unsigned)p, dip_pane_titles[p],
                             dip_compare_pane(state, flow->window->now_ns) == p,
                             "Shows this pane alone and lets the keys change its settings.")) {
-            state->edited[p] = true;
-            state->edited[1 - p] = false;
+            dip_preview_edit_only(state, p);
         }
     }
 }

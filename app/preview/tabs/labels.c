@@ -84,9 +84,8 @@ typedef struct Label {
 } Label;
 
 static Label label_of(const DipUi *ui, const DipWindow *window, int pane, int room) {
-    static const char *const long_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
     static const char *const short_titles[DIP_PANE_COUNT] = {"Cur.", "Req."};
-    Label label = {.title = long_titles[pane]};
+    Label label = {.title = dip_pane_titles[pane]};
     if (pane == DIP_PANE_CURRENT && dip_compare_shows_truth(window)) {
         label.title = "Truth";
         snprintf(label.time, sizeof label.time, "converged");

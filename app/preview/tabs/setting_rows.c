@@ -27,12 +27,6 @@ static DipUiId id_of(DipSetting setting) {
     return DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING + (int)setting);
 }
 
-// Returns the pane that the controls edit: the requested pane, unless the user edits only the
-// current pane.
-static int edited_pane(const DipPreviewState *state) {
-    return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
-}
-
 static int step_of(const DipPreviewState *state, int pane, DipSetting setting) {
     return state->quality[pane].step[setting];
 }
@@ -42,7 +36,7 @@ static int step_of(const DipPreviewState *state, int pane, DipSetting setting) {
 static const char *needs_of(const DipPreviewState *state, DipSetting setting) {
     return setting == DIP_SETTING_SHADOWS && state->lacks_shadows
                ? "needs a directional light"
-               : dip_quality_needs(&state->quality[edited_pane(state)], setting);
+               : dip_quality_needs(&state->quality[dip_preview_edited_pane(state)], setting);
 }
 
 static DipPrice price_of(const DipWindow *window, DipSetting setting, int step) {
@@ -73,7 +67,7 @@ static DipColour flip_colour(const DipPrice *price) {
 // into the groups of adaptive antialiasing, choosing the step also sets the group size to its
 // default.
 static bool is_valid(const DipPreviewState *state, DipSetting setting, int step, char why[256]) {
-    DipQuality quality = state->quality[edited_pane(state)];
+    DipQuality quality = state->quality[dip_preview_edited_pane(state)];
     DipError err;
     why[0] = '\0';
     quality.step[setting] = (uint8_t)step;
@@ -107,7 +101,8 @@ static void change_by(DipUi *ui, DipWindow *window, DipSetting setting, const Di
                       int pointed) {
     DipPreviewState *state = window->state;
     const int count = dip_setting_info(setting)->step_count;
-    const int now = dip_setting_step_at(setting, step_of(state, edited_pane(state), setting));
+    const int now =
+        dip_setting_step_at(setting, step_of(state, dip_preview_edited_pane(state), setting));
     int wanted = now;
     if (input->began || (input->held && input->moved)) {
         wanted = pointed;
@@ -213,13 +208,12 @@ static void draw_pill(DipUi *ui, const DipPreviewState *state, const Slider *sli
     } else if (!requested && (hovered || !valid)) {
         dip_ui_outline(ui, pill, radius, dip_ui_px(ui, 1), valid ? dip_style_soft : dip_style_line);
     }
-    dip_ui_text(ui, STEP_SIZE,
-                requested                  ? dip_style_on_accent
-                : valid && !slider->dimmed ? dip_style_soft
-                                           : dip_style_off,
-                DIP_ALIGN_CENTRE, cell.x + cell.width / 2,
-                cell.y + (cell.height - dip_ui_line_height(ui, STEP_SIZE)) / 2, width, name);
-    if (step == step_of(state, edited_pane(state), slider->setting)) {
+    dip_ui_label(ui, STEP_SIZE,
+                 requested                  ? dip_style_on_accent
+                 : valid && !slider->dimmed ? dip_style_soft
+                                            : dip_style_off,
+                 DIP_ALIGN_CENTRE, pill, name);
+    if (step == step_of(state, dip_preview_edited_pane(state), slider->setting)) {
         dip_ui_focus_ring(ui, pill, radius, &slider->input);
     }
 }
@@ -315,7 +309,7 @@ static void declare_path(DipUi *ui, DipWindow *window, DipSetting setting, DipRe
 // Adds to a note how many pixels a step of the render scale draws.
 static void add_drawn_size(const DipPreviewState *state, int step, char note[DIP_STEP_TEXT_BYTES]) {
     const size_t length = strlen(note);
-    DipQuality quality = state->quality[edited_pane(state)];
+    DipQuality quality = state->quality[dip_preview_edited_pane(state)];
     quality.step[DIP_SETTING_SCALE] = (uint8_t)step;
     if (state->pane_width > 0) {
         snprintf(note + length, DIP_STEP_TEXT_BYTES - length, "\nDraws %d x %d pixels.",

@@ -341,6 +341,21 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     }
 }
 
+// Where the prices come from, and whether that is a warning: the prices are stale or doubtful.
+typedef struct Source {
+    char text[400];
+    bool stale;
+    bool warns;
+} Source;
+
+static Source source_of(const DipWindow *window) {
+    Source source;
+    source.stale = dip_prices_source(window->prices, window->frames[0].width,
+                                     window->frames[0].height, source.text, sizeof source.text);
+    source.warns = source.stale || dip_prices_are_doubtful(window->prices);
+    return source;
+}
+
 // Declares a button at the right end of *line, and cuts the button off *line. Leaves out a button
 // that would take more than half of the line. Returns whether the button was pressed.
 static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const char *tip) {
@@ -354,10 +369,10 @@ static bool end_button(DipUi *ui, int id, DipRect *line, const char *text, const
 // measured at rest. If the report's prices do not hold for the panes, the button changes between
 // the report and live prices. A report of another scene needs no button, since live prices take its
 // place by themselves.
-static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum, DipRect *line) {
+static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum,
+                            const Source *source, DipRect *line) {
     DipPreviewState *state = window->state;
     const DipPrices *prices = window->prices;
-    char source[400];
     if (sum->state == DIP_PRICE_UNKNOWN && dip_prices_are_rough(prices) &&
         dip_preview_time_runs(state)) {
         const int room = line->width;
@@ -370,9 +385,7 @@ static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum
             return;
         }
     }
-    const bool stale = dip_prices_source(prices, window->frames[0].width, window->frames[0].height,
-                                         source, sizeof source);
-    if (dip_prices_has_report(prices) && (stale || state->measures_here) &&
+    if (dip_prices_has_report(prices) && (source->stale || state->measures_here) &&
         !dip_prices_are_of_other_scene(prices) &&
         end_button(ui, DIP_ID_MEASURE_HERE, line,
                    state->measures_here ? "Use the report" : "Measure here",
@@ -411,38 +424,32 @@ static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSu
 // Writes what is being measured, the settings, and where the prices come from. If the prices are
 // doubtful or do not hold for the panes, their source is a warning and comes before the settings,
 // so that a lack of room cuts the settings first.
-static void draw_source(DipUi *ui, const DipWindow *window, DipRect room) {
-    char source[400], settings[DIP_SETTINGS_BYTES];
-    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
-                                         window->frames[0].height, source, sizeof source);
-    const bool warns = stale || dip_prices_are_doubtful(window->prices);
+static void draw_source(DipUi *ui, const DipWindow *window, const Source *source, DipRect room) {
+    char settings[DIP_SETTINGS_BYTES];
     const char *progress = dip_prices_progress(window->prices);
     if (progress[0]) {
         dip_cut_top(&room, dip_ui_text_block(ui, NOTE_SIZE, dip_style_soft, room, progress));
     }
-    if (warns) {
-        dip_cut_top(&room, dip_ui_text_block(ui, SMALL_SIZE, dip_style_worse, room, source));
+    if (source->warns) {
+        dip_cut_top(&room, dip_ui_text_block(ui, SMALL_SIZE, dip_style_worse, room, source->text));
     }
     if (dip_ui_line_height(ui, NOTE_SIZE) <= room.height) {
         dip_quality_format_changes(&window->state->quality[DIP_PANE_REQUESTED], settings,
                                    sizeof settings);
         dip_ui_line(ui, NOTE_SIZE, dip_style_white, &room, "%s", settings);
     }
-    if (!warns) {
-        dip_ui_text_block(ui, SMALL_SIZE, dip_style_dim, room, source);
+    if (!source->warns) {
+        dip_ui_text_block(ui, SMALL_SIZE, dip_style_dim, room, source->text);
     }
 }
 
 // Returns the height of the texts that draw_source must not cut: the progress, and the source if it
 // is a warning.
-static int source_height(const DipUi *ui, const DipWindow *window, int width) {
-    char source[400];
+static int source_height(const DipUi *ui, const DipWindow *window, const Source *source,
+                         int width) {
     const char *progress = dip_prices_progress(window->prices);
-    const bool stale = dip_prices_source(window->prices, window->frames[0].width,
-                                         window->frames[0].height, source, sizeof source);
-    const bool warns = stale || dip_prices_are_doubtful(window->prices);
     return (progress[0] ? dip_ui_text_block_height(ui, NOTE_SIZE, width, progress) : 0) +
-           (warns ? dip_ui_text_block_height(ui, SMALL_SIZE, width, source) : 0);
+           (source->warns ? dip_ui_text_block_height(ui, SMALL_SIZE, width, source->text) : 0);
 }
 
 void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
@@ -451,10 +458,11 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     const DipPriceSum none = {.ms = 0.0};
     const DipPriceSum shown = doubtful ? none : sum;
     const Parts parts = parts_of(&shown);
+    const Source source = source_of(window);
     const int note = dip_ui_line_height(ui, NOTE_SIZE), thin = dip_ui_px(ui, 3);
     DipRect rest = rect;
     DipRect line = dip_cut_top(&rest, dip_ui_px(ui, SUM_HEIGHT));
-    declare_measure(ui, window, &sum, &line);
+    declare_measure(ui, window, &sum, &source, &line);
     draw_sum(ui, window, &sum, line);
     line = dip_cut_top(&rest, note);
     dip_ui_control(
@@ -476,7 +484,7 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     draw_budget(ui, &parts, shown.ms, window->state->budget_ms, line);
     const int buttons = dip_ui_px(ui, 28), gap = dip_ui_px(ui, 4);
     // The legend gets only the room that progress and warnings (source_height) leave.
-    const int spare = rest.height - buttons - gap - source_height(ui, window, rest.width);
+    const int spare = rest.height - buttons - gap - source_height(ui, window, &source, rest.width);
     line = dip_cut_top(&rest, dip_max(0, dip_min(dip_ui_px(ui, 2 * LEGEND_HEIGHT + 3), spare)));
     if (line.height >= note) {
         line.height = note;
@@ -488,5 +496,5 @@ void dip_setting_sum_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     dip_setting_buttons_declare(ui, window, line);
     rest.y = dip_rect_bottom(line) + gap;
     rest.height = dip_rect_bottom(rect) - rest.y;
-    draw_source(ui, window, rest);
+    draw_source(ui, window, &source, rest);
 }

@@ -1,10 +1,11 @@
 // Draws the sheets over the window: the table of costs, and the list of keys.
+#define _GNU_SOURCE // Declares strcasestr().
+
 #include "app/preview/state/keys.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -123,11 +124,14 @@ static void draw_how_to(DipDrawList *list, const DipPreviewState *state, double 
     }
 }
 
-// Makes a table with a row for each setting: its title, and each step's name and figures.
-static Table make_costs(const DipCosts *costs, const DipQuality *quality) {
-    Table table = {.rows = costs->row_count, .columns = 1, .note = costs_note, .half_gaps = {2}};
-    for (int r = 0; r < costs->row_count; ++r) {
-        const DipCostsRow *row = &costs->rows[r];
+// Makes a table with a row for each setting: its title, and each step's name and figures. The cells
+// point to the texts of `rows`.
+static Table make_costs(const DipCostReport *report, const DipQuality *quality,
+                        DipCostsRow rows[DIP_COST_MAX_SWEEPS]) {
+    Table table = {.rows = report->sweep_count, .columns = 1, .note = costs_note, .half_gaps = {2}};
+    for (int r = 0; r < report->sweep_count; ++r) {
+        const DipCostsRow *row = &rows[r];
+        rows[r] = dip_costs_row(report, &report->sweeps[r]);
         table.cells[r][0] = (Cell){row->title, dip_style_white, false};
         for (int s = 0; s < row->step_count; ++s) {
             const bool at = dip_costs_is_at(row, s, quality);
@@ -145,15 +149,14 @@ static Table make_costs(const DipCosts *costs, const DipQuality *quality) {
 }
 
 void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, double scale) {
-    DipCosts costs;
+    DipCostsRow rows[DIP_COST_MAX_SWEEPS];
     char heading[DIP_COSTS_HEADING];
     if (!state->costs) {
         draw_how_to(list, state, scale);
         return;
     }
-    dip_costs_make(&costs, state->costs);
     dip_costs_heading(state->costs, heading);
-    Table table = make_costs(&costs, &state->quality[DIP_PANE_REQUESTED]);
+    Table table = make_costs(state->costs, &state->quality[DIP_PANE_REQUESTED], rows);
     table.size = dip_style_scaled(LARGEST_LETTERS, scale) + 1;
     do {
         --table.size;
@@ -169,22 +172,6 @@ void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, doubl
 
 // --- help ----------------------------------------------------------------------------------------
 
-// Returns whether a text contains `words`, ignoring case.
-static bool holds(const char *text, const char *words) {
-    const size_t length = strlen(words);
-    for (; strlen(text) >= length; ++text) {
-        size_t same = 0;
-        while (same < length &&
-               tolower((unsigned char)text[same]) == tolower((unsigned char)words[same])) {
-            ++same;
-        }
-        if (same == length) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // Lists the keys whose label or text contains `words`, in groups of
 // `table->rows` rows. Returns the number of listed keys.
 static int list_keys(Table *table, const char *words) {
@@ -195,7 +182,7 @@ static int list_keys(Table *table, const char *words) {
         const char *text = key->action == DIP_ACTION_SETTING
                                ? dip_setting_info((DipSetting)key->argument)->title
                                : key->text;
-        if (key->label && (holds(key->label, words) || holds(text, words))) {
+        if (key->label && (strcasestr(key->label, words) || strcasestr(text, words))) {
             Cell *cells = &table->cells[count % table->rows][count / table->rows * 2];
             cells[0] = (Cell){key->label, dip_style_accent, false};
             cells[1] = (Cell){text, dip_style_white, false};

@@ -18,7 +18,6 @@ enum {
 };
 
 static const int64_t graph_ns = 5000000000;
-static const char *const pane_titles[DIP_PANE_COUNT] = {"Current", "Requested"};
 
 // --- the graph -----------------------------------------------------------------------------------
 
@@ -78,12 +77,12 @@ static void draw_legend(DipUi *ui, const DipWindow *window, History *history, in
     char text[120];
     const int swatch = dip_ui_px(ui, 8);
     if (window->figures[pane].copied) {
-        snprintf(text, sizeof text, "%s: same settings, drawn once", pane_titles[pane]);
+        snprintf(text, sizeof text, "%s: same settings, drawn once", dip_pane_titles[pane]);
     } else if (history->count == 0) {
-        snprintf(text, sizeof text, "%s: no frame%s", pane_titles[pane],
+        snprintf(text, sizeof text, "%s: no frame%s", dip_pane_titles[pane],
                  window->still ? ", since time stands still" : " yet");
     } else {
-        snprintf(text, sizeof text, "%s: median %.1f, p95 %.1f ms", pane_titles[pane],
+        snprintf(text, sizeof text, "%s: median %.1f, p95 %.1f ms", dip_pane_titles[pane],
                  dip_percentile(history->ms, history->count, 0.5),
                  dip_percentile(history->ms, history->count, 0.95));
     }
@@ -158,7 +157,7 @@ static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect 
 static void draw_heading(DipUi *ui, const DipWindow *window, int pane, DipRect line) {
     const DipPreviewState *state = window->state;
     const DipPixels *frame = &window->frames[pane];
-    dip_ui_word(ui, SIZE, dip_style_of_pane(pane), &line, dip_ui_px(ui, 10), pane_titles[pane]);
+    dip_ui_word(ui, SIZE, dip_style_of_pane(pane), &line, dip_ui_px(ui, 10), dip_pane_titles[pane]);
     dip_ui_line(ui, SIZE, dip_style_dim, &line, "%dx%d   %s", frame->width, frame->height,
                 state->scene_title ? state->scene_title
                                    : dip_preview_path_title(state, state->track->active));

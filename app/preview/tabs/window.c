@@ -22,8 +22,7 @@ static DipUiInput declare_pane(DipUi *ui, DipWindow *window, int pane) {
             dip_preview_notice(state, dip_ui_now_ns(ui), "Keys and panel change the %s pane",
                                dip_pane_names[pane]);
         }
-        state->edited[pane] = true;
-        state->edited[1 - pane] = false;
+        dip_preview_edit_only(state, pane);
         dip_ui_blur(ui);
     }
     if (input.began && input.clicks == 2) {

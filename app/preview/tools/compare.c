@@ -2,6 +2,7 @@
 #include "app/preview/tools/compare.h"
 
 #include "app/preview/tools/loupe.h"
+#include "app/ui/layout.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,13 +79,12 @@ DipRect dip_compare_fit(DipRect area, int width, int height) {
         shown_height = area.height;
         shown_width = dip_max(1, (int)((int64_t)width * area.height / height));
     }
-    return (DipRect){area.x + (area.width - shown_width) / 2,
-                     area.y + (area.height - shown_height) / 2, shown_width, shown_height};
+    return dip_rect_middle(area, shown_width, shown_height);
 }
 
 int dip_compare_pane(const DipPreviewState *state, int64_t now_ns) {
     if (state->tools.comparison == DIP_COMPARE_ALONE) {
-        return state->edited[DIP_PANE_REQUESTED] ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
+        return dip_preview_edited_pane(state);
     }
     const bool swapped = state->tools.blinks && now_ns / blink_ns % 2 != 0;
     return state->tools.blinked != swapped ? DIP_PANE_REQUESTED : DIP_PANE_CURRENT;
@@ -208,18 +208,17 @@ const DipDifference *dip_compare_make_difference(DipComparer *compare, const Dip
     const DipPixels *a = dip_compare_picture(window, DIP_PANE_CURRENT, &of[DIP_PANE_CURRENT]);
     const DipPixels *b = dip_compare_picture(window, DIP_PANE_REQUESTED, &of[DIP_PANE_REQUESTED]);
     const int gain = dip_max(1, window->state->tools.gain);
-    if (!compare->known || memcmp(compare->of, of, sizeof of) != 0 || compare->gain != gain) {
-        compare->known = a->width == b->width && a->height == b->height &&
-                         dip_canvas_resize(&compare->difference, a->width, a->height, NULL);
-        if (!compare->known) {
-            return NULL;
+    DipKeptPicture *difference = &compare->difference;
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, "difference");
+    dip_hash_bytes(&hash, of, sizeof of);
+    dip_hash_integer(&hash, gain);
+    if (dip_kept_begin(difference, &hash)) {
+        difference->known = a->width == b->width && a->height == b->height &&
+                            dip_canvas_resize(&difference->canvas, a->width, a->height, NULL);
+        if (difference->known) {
+            compare->found = dip_compare_difference(a, b, gain, difference->canvas.rgba8);
         }
-        compare->found = dip_compare_difference(a, b, gain, compare->difference.rgba8);
-        memcpy(compare->of, of, sizeof compare->of);
-        compare->gain = gain;
-        ++compare->version;
     }
-    *picture = dip_canvas_pixels(&compare->difference);
-    *version = compare->version;
-    return &compare->found;
+    return dip_kept_show(difference, picture, version) ? &compare->found : NULL;
 }

@@ -3,8 +3,8 @@
 #ifndef DIP_APP_PREVIEW_TOOLS_COMPARE_H
 #define DIP_APP_PREVIEW_TOOLS_COMPARE_H
 
+#include "app/preview/tools/kept.h"
 #include "app/preview/tools/window.h"
-#include "app/ui/canvas.h"
 
 // --- arithmetic --------------------------------------------------------------------------------
 
@@ -80,13 +80,8 @@ const char *dip_compare_name(DipComparison comparison); // "Side by side"
 
 // The difference that was computed last.
 typedef struct DipComparer {
-    DipCanvas difference;
+    DipKeptPicture difference;
     DipDifference found;
-    bool known;                  // `difference` is known; the members below say what it was
-                                 // computed from.
-    uint64_t of[DIP_PANE_COUNT]; // Versions of the two compared pictures.
-    int gain;
-    uint64_t version; // Version of `difference`.
 } DipComparer;
 
 // Returns the difference of the two pictures that the comparison shows (dip_compare_picture), and

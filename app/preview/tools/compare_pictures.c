@@ -1,6 +1,7 @@
 // Draws the comparisons' pictures, and what lies over them: the divider of a wipe, and the label of
 // a difference.
 #include "app/preview/tools/tools.h"
+#include "app/ui/layout.h"
 #include "app/ui/style.h"
 
 #include <stdio.h>
@@ -21,11 +22,6 @@ static uint64_t own_version(uint64_t version, DipComparison comparison) {
     return version ^ ((uint64_t)comparison + 1) << 56;
 }
 
-static DipPixels columns_of(const DipPixels *picture, int first, int count) {
-    return (DipPixels){picture->rgba8 + 4 * (size_t)first, picture->stride_bytes, count,
-                       picture->height};
-}
-
 static void draw_wipe(DipUi *ui, const DipWindow *window) {
     const int width = window->frames[DIP_PANE_CURRENT].width;
     const int column = dip_compare_divider_column(window->state->tools.divider, width);
@@ -36,7 +32,8 @@ static void draw_wipe(DipUi *ui, const DipWindow *window) {
         if (count[p] > 0 && !dip_rect_is_empty(visible)) {
             uint64_t version;
             const DipPixels *picture = dip_compare_picture(window, p, &version);
-            const DipPixels part = columns_of(picture, first[p], count[p]);
+            const DipPixels part =
+                dip_pixels_part(picture, (DipRect){first[p], 0, count[p], picture->height});
             dip_ui_picture(ui, visible, &part, own_version(version, DIP_COMPARE_WIPE));
         }
     }
@@ -143,10 +140,9 @@ static void draw_divider(DipUi *ui, const DipWindow *window) {
         return;
     }
     const DipRect disc = {x + 2 * unit - radius, middle - radius, 2 * radius, 2 * radius};
-    const DipRect inner = {disc.x + 2 * unit, disc.y + 2 * unit, disc.width - 4 * unit,
-                           disc.height - 4 * unit};
     dip_ui_fill_round(ui, disc, radius, dip_style_white);
-    dip_ui_fill_round(ui, inner, radius - 2 * unit, dip_style_well);
+    dip_ui_fill_round(ui, dip_rect_inset(disc, 2 * unit, 2 * unit), radius - 2 * unit,
+                      dip_style_well);
     draw_chevron(ui, x + 2 * unit - radius / 2, middle, radius / 2, -1, dip_style_white);
     draw_chevron(ui, x + 2 * unit + radius / 3, middle, radius / 2, 1, dip_style_accent);
 }
@@ -173,10 +169,8 @@ static void label_difference(DipUi *ui, const DipWindow *window) {
     }
     const DipRect rect = {shown.x + (shown.width - width) / 2, shown.y + dip_ui_px(ui, 12), width,
                           height};
-    dip_ui_fill_round(ui,
-                      (DipRect){rect.x - pad, rect.y - dip_ui_px(ui, 4), width + 2 * pad,
-                                height + dip_ui_px(ui, 8)},
-                      dip_ui_px(ui, 3), dip_style_glass);
+    dip_ui_fill_round(ui, dip_rect_inset(rect, -pad, -dip_ui_px(ui, 4)), dip_ui_px(ui, 3),
+                      dip_style_glass);
     dip_ui_text_block(ui, TEXT, dip_style_white, rect, text);
 }
 

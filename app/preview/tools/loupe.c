@@ -124,7 +124,6 @@ void dip_loupe_free(DipLoupe *loupe) {
 
 void dip_loupe_want(DipLoupe *loupe, DipTargetRegion region) {
     loupe->wanted = region;
-    loupe->is_wanted = region.x0 < region.x1 && region.y0 < region.y1;
 }
 
 // Returns whether reading a pane's samples has been tried already for this picture and region.
@@ -171,7 +170,8 @@ static bool read_pane(DipLoupe *loupe, int pane, const DipToolsInput *input) {
 bool dip_loupe_update(DipLoupe *loupe, const DipToolsInput *input) {
     loupe->frame_index = input->frame_index;
     const DipTargetRegion *wanted = &loupe->wanted;
-    if (!loupe->is_wanted || !input->loupe || !input->still || wanted->x0 < 0 || wanted->y0 < 0 ||
+    const bool is_wanted = wanted->x0 < wanted->x1 && wanted->y0 < wanted->y1;
+    if (!is_wanted || !input->loupe || !input->still || wanted->x0 < 0 || wanted->y0 < 0 ||
         wanted->x1 > input->width || wanted->y1 > input->height) {
         return false;
     }

@@ -8,8 +8,8 @@
 #define DIP_APP_PREVIEW_TOOLS_LOUPE_H
 
 #include "app/preview/state/tool_state.h"
+#include "app/preview/tools/kept.h"
 #include "app/preview/tools/tools_input.h"
-#include "app/ui/canvas.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/readback.h"
@@ -67,29 +67,6 @@ bool dip_loupe_is_front(const DipSampleValue *samples, int count, int sample);
 
 // --- memory ------------------------------------------------------------------------------------
 
-// A picture that is drawn again only if its key (DipCropKey or DipBoxKey) changes.
-typedef struct DipKeptPicture {
-    DipCanvas canvas;
-    bool valid;
-    uint64_t version;
-} DipKeptPicture;
-
-// DipCropKey and DipBoxKey say from what the pictures of a pane's crop and box were drawn. Keys are
-// compared byte by byte, so a key is set to 0 before its members are set.
-typedef struct DipCropKey {
-    uint64_t frame_version;
-    unsigned generation; // DipLoupe.generation when the crop was drawn.
-    DipLoupeCrop crop;
-} DipCropKey;
-
-typedef struct DipBoxKey {
-    const DipSamplePattern *pattern;
-    int side;
-    DipColour pixel;
-    bool has_samples;
-    DipSampleValue samples[DIP_MAX_SAMPLES];
-} DipBoxKey;
-
 typedef struct DipPaneSamples {
     DipSampleValue *samples; // Owned.
     size_t capacity;         // Number of entries for which `samples` has room.
@@ -99,19 +76,15 @@ typedef struct DipPaneSamples {
     DipTargetRegion region;
     const DipSamplePattern *pattern;
     DipKeptPicture crop;
-    DipCropKey crop_key;
     DipKeptPicture box;
-    DipBoxKey box_key;
 } DipPaneSamples;
 
 typedef struct DipLoupe {
     DipSrgbDecodeTable decode;
     DipSrgbEncodeTable encode;
     DipTargetRegion wanted;
-    bool is_wanted;
     uint64_t frame_index; // Index of the panes' newest frame, as in DipToolsInput.
     unsigned generation;  // Grows whenever reading samples is tried.
-    uint64_t version;     // Version of the loupe's newest picture (a crop or a box).
     DipPaneSamples panes[DIP_PANE_COUNT];
 } DipLoupe;
 
@@ -149,7 +122,7 @@ typedef struct DipCropContent {
 
 // Draws the enlarged pixels of a pane. From a zoom of 16 on, marks the known samples of pixels that
 // show several patches. *picture has the size of crop.frame and is valid until the next call for
-// the pane. *version lies in a range that no frame uses. Returns false if memory runs out.
+// the pane. Returns false if memory runs out.
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version);
 

@@ -4,7 +4,6 @@
 #include "app/ui/style.h"
 
 #include <math.h>
-#include <string.h>
 
 // Least zoom at which the crop marks samples. At smaller zooms, the marks would hide the pixels.
 enum { MARKS_ZOOM = 16 };
@@ -13,12 +12,6 @@ enum { MARKS_ZOOM = 16 };
 enum { MASK_SIDE = 64 };
 
 // --- the crop ------------------------------------------------------------------------------------
-
-// Returns the part of a picture that lies in a rectangle of its pixels.
-static DipPixels part_of(const DipPixels *picture, DipRect rect) {
-    const size_t offset = (size_t)rect.y * picture->stride_bytes + 4 * (size_t)rect.x;
-    return (DipPixels){picture->rgba8 + offset, picture->stride_bytes, rect.width, rect.height};
-}
 
 // Marks a sample of a pixel whose square has its top left corner at x, y. The mark is a square with
 // a white border. The square has the sample's colour if it is large enough; otherwise it is dark.
@@ -61,10 +54,9 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
         return false;
     }
     const DipRect all = {0, 0, crop->frame.width, crop->frame.height};
-    dip_canvas_set_clip(canvas, all);
     dip_canvas_fill(canvas, all, dip_style_well);
     if (!dip_rect_is_empty(crop->source)) {
-        const DipPixels part = part_of(&content->frame, crop->source);
+        const DipPixels part = dip_pixels_part(&content->frame, crop->source);
         const DipRect shown = {crop->shown.x - crop->frame.x, crop->shown.y - crop->frame.y,
                                crop->shown.width, crop->shown.height};
         dip_canvas_copy(canvas, shown, &part);
@@ -78,19 +70,15 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version) {
     DipPaneSamples *held = &loupe->panes[pane];
-    DipCropKey key;
-    memset(&key, 0, sizeof key);
-    key.frame_version = content->version;
-    key.generation = loupe->generation;
-    key.crop = content->crop;
-    if (!held->crop.valid || memcmp(&held->crop_key, &key, sizeof key) != 0) {
-        held->crop.valid = draw_crop(loupe, pane, content, &held->crop.canvas);
-        held->crop.version = ++loupe->version;
-        memcpy(&held->crop_key, &key, sizeof key);
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, "crop");
+    dip_hash_integer(&hash, (int64_t)content->version);
+    dip_hash_integer(&hash, loupe->generation);
+    dip_hash_bytes(&hash, &content->crop, sizeof content->crop);
+    if (dip_kept_begin(&held->crop, &hash)) {
+        held->crop.known = draw_crop(loupe, pane, content, &held->crop.canvas);
     }
-    *picture = dip_canvas_pixels(&held->crop.canvas);
-    *version = held->crop.version;
-    return held->crop.valid;
+    return dip_kept_show(&held->crop, picture, version);
 }
 
 // --- the box -------------------------------------------------------------------------------------
@@ -182,7 +170,6 @@ static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCan
         return false;
     }
     const DipRect all = {0, 0, content->side, content->side};
-    dip_canvas_set_clip(canvas, all);
     const int first = box_position(content->side, 0);
     const int length = box_position(content->side, 256) - first;
     dip_canvas_fill(canvas, all, dip_style_dock);
@@ -197,24 +184,19 @@ static bool draw_box(const DipLoupe *loupe, const DipBoxContent *content, DipCan
 bool dip_loupe_box_picture(DipLoupe *loupe, int pane, const DipBoxContent *content,
                            DipPixels *picture, uint64_t *version) {
     DipPaneSamples *held = &loupe->panes[pane];
-    DipBoxKey key;
-    memset(&key, 0, sizeof key);
-    key.pattern = content->pattern;
-    key.side = content->side;
-    key.pixel = content->pixel;
-    key.has_samples = content->samples != NULL;
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, "box");
+    dip_hash_integer(&hash, (intptr_t)content->pattern);
+    dip_hash_integer(&hash, content->side);
+    dip_hash_bytes(&hash, &content->pixel, sizeof content->pixel);
     for (int s = 0; content->samples && s < content->pattern->count; ++s) {
         const DipSampleValue *sample = &content->samples[s];
-        memcpy(key.samples[s].linear16, sample->linear16, sizeof sample->linear16);
-        key.samples[s].patch = sample->patch;
-        key.samples[s].depth = sample->depth;
+        dip_hash_bytes(&hash, sample->linear16, sizeof sample->linear16);
+        dip_hash_integer(&hash, sample->patch);
+        dip_hash_number(&hash, (double)sample->depth);
     }
-    if (!held->box.valid || memcmp(&held->box_key, &key, sizeof key) != 0) {
-        held->box.valid = draw_box(loupe, content, &held->box.canvas);
-        held->box.version = ++loupe->version;
-        memcpy(&held->box_key, &key, sizeof key);
+    if (dip_kept_begin(&held->box, &hash)) {
+        held->box.known = draw_box(loupe, content, &held->box.canvas);
     }
-    *picture = dip_canvas_pixels(&held->box.canvas);
-    *version = held->box.version;
-    return held->box.valid;
+    return dip_kept_show(&held->box, picture, version);
 }

@@ -2,10 +2,10 @@
 // is missing or not yet final, and finds sizes of mip levels in the map of mip colours.
 #include "app/measure/metrics/flip.h"
 #include "app/preview/tools/maps.h"
+#include "renderer/scene/mip_debug.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 // Share of the scale's colour, in 1/256, where a map blends it with the pane's picture in grey.
@@ -30,35 +30,37 @@ static void blend(uint8_t *to, const uint8_t *rgba8, const uint8_t rgb[3], int s
 
 // --- a function for each map ---------------------------------------------------------------------
 
-static void draw_flip(DipMapPicture *picture, const float *flip) {
+static void draw_flip(DipCanvas *canvas, const float *flip, double end) {
     uint8_t table[DIP_MAP_COLOURS][3];
     for (int i = 0; i < DIP_MAP_COLOURS; i++) {
         dip_magma((float)i / (DIP_MAP_COLOURS - 1), table[i]);
     }
-    for (size_t i = 0; i < picture->pixels; i++) {
-        put(picture->rgba8 + 4 * i, table[dip_map_colour_index(flip[i], (float)picture->end)]);
+    const size_t pixels = (size_t)canvas->width * (size_t)canvas->height;
+    for (size_t i = 0; i < pixels; i++) {
+        put(canvas->rgba8 + 4 * i, table[dip_map_colour_index(flip[i], (float)end)]);
     }
 }
 
 // Finds the colour of each tile in row `row` of the tiles.
-static void colour_row(const DipMapPicture *picture, const DipMapWork *work, int row,
+static void colour_row(const DipMapWork *work, DipMap map, double end, int row,
                        uint8_t (*colours)[3]) {
     for (int column = 0; column < work->across; column++) {
-        const double value = dip_map_value(work, picture->map, row * work->across + column);
-        dip_cividis((float)(value / picture->end), colours[column]);
+        const double value = dip_map_value(work, map, row * work->across + column);
+        dip_cividis((float)(value / end), colours[column]);
     }
 }
 
 // Colours each tile over the grey picture, with a dark line at the tile's left and upper edge.
-static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
+static void draw_tiles(DipCanvas *canvas, const DipMapWork *work, DipMap map, double end,
+                       const DipPixels *frame) {
     uint8_t colours[DIP_MAX_TARGET_SIZE / DIP_TARGET_TILE][3];
-    for (int y = 0; y < picture->height; y++) {
+    for (int y = 0; y < canvas->height; y++) {
         const uint8_t *from = frame->rgba8 + (size_t)y * frame->stride_bytes;
-        uint8_t *to = picture->rgba8 + 4 * (size_t)y * (size_t)picture->width;
+        uint8_t *to = canvas->rgba8 + 4 * (size_t)y * (size_t)canvas->width;
         if (y % DIP_TARGET_TILE == 0) {
-            colour_row(picture, work, y / DIP_TARGET_TILE, colours);
+            colour_row(work, map, end, y / DIP_TARGET_TILE, colours);
         }
-        for (int x = 0; x < picture->width; x++, from += 4, to += 4) {
+        for (int x = 0; x < canvas->width; x++, from += 4, to += 4) {
             blend(to, from, colours[x / DIP_TARGET_TILE], COLOUR_SHARE);
             const bool edge = x % DIP_TARGET_TILE == 0 || y % DIP_TARGET_TILE == 0;
             for (int c = 0; c < 3 && edge; c++) {
@@ -70,15 +72,15 @@ static void draw_tiles(DipMapPicture *picture, const DipMapWork *work, const Dip
 
 // Draws every pixel with differing samples in the scale's last colour. All other pixels show the
 // grey picture, tinted with the scale's first colour.
-static void draw_mixed(DipMapPicture *picture, const DipMapWork *work, const DipPixels *frame) {
+static void draw_mixed(DipCanvas *canvas, const DipMapWork *work, const DipPixels *frame) {
     uint8_t first[3], last[3];
     dip_cividis(0.0f, first);
     dip_cividis(1.0f, last);
-    for (int y = 0; y < picture->height; y++) {
+    for (int y = 0; y < canvas->height; y++) {
         const uint8_t *from = frame->rgba8 + (size_t)y * frame->stride_bytes;
-        const size_t row = (size_t)y * (size_t)picture->width;
-        for (int x = 0; x < picture->width; x++) {
-            uint8_t *to = picture->rgba8 + 4 * (row + (size_t)x);
+        const size_t row = (size_t)y * (size_t)canvas->width;
+        for (int x = 0; x < canvas->width; x++) {
+            uint8_t *to = canvas->rgba8 + 4 * (row + (size_t)x);
             if (work->mixed[row + (size_t)x]) {
                 put(to, last);
             } else {
@@ -106,55 +108,44 @@ static bool find_source(const DipMaps *maps, DipMap map, int pane, const DipPixe
            work->width == frame->width && work->height == frame->height;
 }
 
-static bool make_room(DipMapPicture *picture, const DipPixels *frame) {
-    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
-    if (picture->pixels != pixels) {
-        free(picture->rgba8);
-        picture->rgba8 = malloc(4 * pixels);
-        picture->pixels = picture->rgba8 ? pixels : 0;
-    }
-    return picture->rgba8 != NULL;
-}
-
-static void draw(const DipMaps *maps, int pane, const DipPixels *frame, DipMapPicture *picture) {
+static void draw(const DipMaps *maps, DipMap map, double end, int pane, const DipPixels *frame,
+                 DipCanvas *canvas) {
     const DipMapWork *work = dip_maps_work(maps, pane);
-    if (picture->map == DIP_MAP_FLIP) {
-        draw_flip(picture, maps->errors->flip[pane]);
-    } else if (picture->map == DIP_MAP_MIPS) {
-        memcpy(picture->rgba8, work->mips, 4 * picture->pixels);
-    } else if (picture->map == DIP_MAP_SAMPLES) {
-        draw_mixed(picture, work, frame);
+    if (map == DIP_MAP_FLIP) {
+        draw_flip(canvas, maps->errors->flip[pane], end);
+    } else if (map == DIP_MAP_MIPS) {
+        memcpy(canvas->rgba8, work->mips, 4 * (size_t)frame->width * (size_t)frame->height);
+    } else if (map == DIP_MAP_SAMPLES) {
+        draw_mixed(canvas, work, frame);
     } else {
-        draw_tiles(picture, work, frame);
+        draw_tiles(canvas, work, map, end, frame);
     }
 }
 
 bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const DipPixels *frame,
                       uint64_t frame_version, DipPixels *out, uint64_t *version) {
-    DipMapPicture *picture = &maps->pictures[pane];
+    DipKeptPicture *picture = &maps->pictures[pane];
     const double end = dip_maps_end(maps, tools);
     uint64_t source;
-    if (!find_source(maps, tools->map, pane, frame, &source) || !make_room(picture, frame)) {
-        picture->made = false;
+    if (!find_source(maps, tools->map, pane, frame, &source)) {
         return false;
     }
-    const bool same = picture->made && picture->map == tools->map && picture->end == end &&
-                      picture->source == source && picture->frame_version == frame_version &&
-                      picture->width == frame->width && picture->height == frame->height;
-    if (!same) {
-        picture->map = tools->map;
-        picture->end = end;
-        picture->source = source;
-        picture->frame_version = frame_version;
-        picture->width = frame->width;
-        picture->height = frame->height;
-        draw(maps, pane, frame, picture);
-        picture->made = true;
-        picture->version = DIP_MAP_PICTURE_VERSION + ++maps->picture_count;
+    DipHash hash = dip_hash_begin(0);
+    dip_hash_text(&hash, "map");
+    dip_hash_integer(&hash, pane);
+    dip_hash_integer(&hash, (int64_t)tools->map);
+    dip_hash_number(&hash, end);
+    dip_hash_integer(&hash, (int64_t)source);
+    dip_hash_integer(&hash, (int64_t)frame_version);
+    dip_hash_integer(&hash, frame->width);
+    dip_hash_integer(&hash, frame->height);
+    if (dip_kept_begin(picture, &hash)) {
+        picture->known = dip_canvas_resize(&picture->canvas, frame->width, frame->height, NULL);
+        if (picture->known) {
+            draw(maps, tools->map, end, pane, frame, &picture->canvas);
+        }
     }
-    *out = (DipPixels){picture->rgba8, 4 * (size_t)frame->width, frame->width, frame->height};
-    *version = picture->version;
-    return true;
+    return dip_kept_show(picture, out, version);
 }
 
 // --- words ---------------------------------------------------------------------------------------
@@ -220,14 +211,9 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
 
 // --- mip levels ----------------------------------------------------------------------------------
 
-// The colours of mip debugging (renderer/scene/resources/mip_debug.c), in sRGB.
-static const DipColour mip_colours[DIP_MIP_DEBUG_LEVELS] = {
-    {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
-    {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},
-};
-
 DipColour dip_map_mip_colour(int index) {
-    return mip_colours[index];
+    const uint8_t *rgba8 = dip_mip_debug_colour(index);
+    return (DipColour){rgba8[0], rgba8[1], rgba8[2], rgba8[3]};
 }
 
 void dip_map_mip_text(int index, char text[DIP_MIP_TEXT_BYTES]) {
@@ -266,10 +252,9 @@ int dip_maps_mip_index(const DipMaps *maps, int pane, int x, int y) {
     for (int i = 0; i < BLENDS * (DIP_MIP_DEBUG_LEVELS - 1) + 1; i++) {
         const int level = dip_min(i / BLENDS, DIP_MIP_DEBUG_LEVELS - 2);
         const double part = (double)(i - level * BLENDS) / BLENDS;
-        const DipColour *a = &mip_colours[level], *b = a + 1;
-        const double colour[3] = {a->red + part * (b->red - a->red),
-                                  a->green + part * (b->green - a->green),
-                                  a->blue + part * (b->blue - a->blue)};
+        const uint8_t *a = dip_mip_debug_colour(level), *b = dip_mip_debug_colour(level + 1);
+        const double colour[3] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]),
+                                  a[2] + part * (b[2] - a[2])};
         // A pixel may have a colour itself, or a brighter one that light has dimmed. The darker
         // colour comes first, and rounding must not prefer the brighter one.
         const double distance = distance_from(pixel, colour);

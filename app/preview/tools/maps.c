@@ -22,7 +22,7 @@ void dip_maps_free(DipMaps *maps) {
     dip_painter_destroy(&maps->painter);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         free_work(&maps->panes[p]);
-        free(maps->pictures[p].rgba8);
+        dip_canvas_free(&maps->pictures[p].canvas);
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/preview/live/error_thread.h"
 #include "app/preview/state/tool_state.h"
+#include "app/preview/tools/kept.h"
 #include "app/preview/tools/map_colours.h"
 #include "app/preview/tools/tools_input.h"
 #include "app/ui/pixels.h"
@@ -63,20 +64,6 @@ typedef struct DipMapKey {
     bool copied; // Both panes show one frame, which is measured only once.
 } DipMapKey;
 
-// A map's picture, and what it was made from.
-typedef struct DipMapPicture {
-    uint8_t *rgba8; // Owned.
-    size_t pixels;
-    DipMap map;
-    double end;
-    uint64_t source; // Version of the map's values, which are errors or measured work.
-    uint64_t frame_version;
-    int width;
-    int height;
-    bool made;
-    uint64_t version;
-} DipMapPicture;
-
 // The memory of the maps; zero-initialise. While the window is drawn, the maps' tab sets `wanted`.
 // The tab reads `errors`, and keeps its choices in `view`.
 typedef struct DipMaps {
@@ -89,8 +76,7 @@ typedef struct DipMaps {
     DipErrorReading reading;
     const DipErrorPictures *errors; // Borrowed; NULL if there are none.
     DipPixels truth;
-    DipMapPicture pictures[DIP_PANE_COUNT];
-    uint64_t picture_count;
+    DipKeptPicture pictures[DIP_PANE_COUNT];
     DipMapView view;
 } DipMaps;
 

@@ -76,7 +76,6 @@ static bool draw_thumbnail(DipStrip *strip, const DipToolsInput *input) {
     }
     const DipRect all = {0, 0, frame.width, frame.height};
     const DipPixels pixels = {frame.rgba8, frame.stride_bytes, frame.width, frame.height};
-    dip_canvas_set_clip(canvas, all);
     dip_canvas_copy(canvas, all, &pixels);
     strip->versions[index] = ++strip->version;
     strip->drawn++;

@@ -11,8 +11,6 @@ DipTools *dip_tools_create(DipError *err) {
     }
     dip_srgb_decode_table(&tools->loupe.decode);
     dip_srgb_encode_table(&tools->loupe.encode);
-    tools->loupe.version = DIP_LOUPE_VERSION;
-    tools->compare.version = DIP_DIFFERENCE_VERSION;
     tools->strip.version = DIP_STRIP_VERSION;
     return tools;
 }
@@ -20,7 +18,7 @@ DipTools *dip_tools_create(DipError *err) {
 void dip_tools_destroy(DipTools **tools) {
     if (*tools) {
         dip_loupe_free(&(*tools)->loupe);
-        dip_canvas_free(&(*tools)->compare.difference);
+        dip_canvas_free(&(*tools)->compare.difference.canvas);
         dip_strip_free(&(*tools)->strip);
         dip_maps_free(&(*tools)->maps);
         free(*tools);

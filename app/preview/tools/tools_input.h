@@ -19,13 +19,10 @@ typedef struct DipToolsInput {
     bool loupe;  // The loupe is on (dip_loupe_is_on).
 } DipToolsInput;
 
-// The versions of the tools' pictures begin at these numbers. Equal versions mean equal pixels
-// (draw_list.h). The versions of frames begin at 0 and never reach these ranges. Each tool counts
-// upwards from its own number.
-#define DIP_LOUPE_VERSION       (UINT64_C(1) << 62)
-#define DIP_MAP_TRUTH_VERSION   (UINT64_C(0x4d) << 56)
-#define DIP_MAP_PICTURE_VERSION (UINT64_C(0x4e) << 56)
-#define DIP_DIFFERENCE_VERSION  (UINT64_C(5) << 60)
-#define DIP_STRIP_VERSION       (UINT64_C(6) << 60)
+// The versions of the truth and of the strip's pictures are counted upwards from these numbers.
+// Equal versions mean equal pixels (draw_list.h). The versions of frames begin at 0 and never reach
+// these ranges. The versions of the other tools' pictures are hashes (kept.h).
+#define DIP_MAP_TRUTH_VERSION (UINT64_C(0x4d) << 56)
+#define DIP_STRIP_VERSION     (UINT64_C(6) << 60)
 
 #endif

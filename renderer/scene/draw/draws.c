@@ -2,7 +2,7 @@
 #include "renderer/scene/draw/draws.h"
 
 #include "renderer/scene/resources/lighting.h"
-#include "renderer/scene/resources/mip_debug.h"
+#include "renderer/scene/mip_debug.h"
 #include "renderer/scene/resources/scene_layout.h"
 
 #include <stdlib.h>

@@ -1,12 +1,16 @@
 // A colour for each size of mip level, from Table 4 of the 2006 ATI Catalyst Control Preview
 // report.
-#include "renderer/scene/resources/mip_debug.h"
+#include "renderer/scene/mip_debug.h"
 
 // sRGB colours of levels of 1024, 512, 256, 128, 64, 32, 16 and 8 texels.
 static const uint8_t colours[DIP_MIP_DEBUG_LEVELS][4] = {
     {0, 0, 0, 255},     {128, 0, 0, 255}, {255, 0, 0, 255}, {255, 128, 0, 255},
     {255, 255, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {128, 0, 128, 255},
 };
+
+const uint8_t *dip_mip_debug_colour(int level) {
+    return colours[level];
+}
 
 DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                  DipError *err) {

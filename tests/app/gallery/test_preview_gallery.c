@@ -24,8 +24,8 @@ static DipDisplay display;
 static DipFakeDisplay *fake;
 static DipPreview *preview;
 
-static bool no_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool no_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, "scene", "there is none");
 }
 
@@ -161,7 +161,7 @@ static void settings_change_the_requested_pane(void **state) {
     for (int i = 0; i < 20; i++) {
         turn();
     }
-    assert_true(dip_preview_state(preview)->panel);
+    assert_true(dip_preview_shows_times(dip_preview_state(preview)));
 }
 
 static void the_tour_goes_from_scene_to_scene(void **state) {

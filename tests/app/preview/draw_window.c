@@ -26,10 +26,6 @@ static int64_t cpu_ns(void) {
     return 1000000000 * (int64_t)time.tv_sec + time.tv_nsec;
 }
 
-static bool load_scene_def(void *context, DipError *err) {
-    return dip_session_keep_model(context, err);
-}
-
 static void turn(void) {
     DipError err;
     if (!dip_preview_turn(preview, &err)) {
@@ -131,8 +127,7 @@ int main(int argc, char **argv) {
                                        .session = &session,
                                        .display = display,
                                        .flying_speed_m_per_s = 1.0,
-                                       .load_scene_def = load_scene_def,
-                                       .context = &session};
+                                       .load_scene_def = dip_session_keep_model};
     preview = dip_preview_create(&preview_def, NULL);
     turn();
     act(" ");

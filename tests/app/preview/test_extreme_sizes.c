@@ -25,8 +25,8 @@ static DipDisplay display;
 static DipFakeDisplay *fake;
 static DipPreview *preview;
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     (void)err;
     session.scene_def = scene.def;
     return true;

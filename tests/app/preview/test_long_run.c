@@ -99,10 +99,6 @@ static void write_ini(const char *file) {
     fclose(out);
 }
 
-static bool load_scene_def(void *context, DipError *err) {
-    return dip_session_keep_model(context, err);
-}
-
 static int set_up(void **state) {
     static DipSessionOptions options;
     (void)state;
@@ -119,8 +115,7 @@ static int set_up(void **state) {
     const DipPreviewDef preview = {.session = &run.session,
                                    .display = run.display,
                                    .flying_speed_m_per_s = 1.0,
-                                   .load_scene_def = load_scene_def,
-                                   .context = &run.session};
+                                   .load_scene_def = dip_session_keep_model};
     run.preview = dip_preview_create(&preview, NULL);
     assert_true(run.reference && run.fake && run.preview);
     dip_reference_set_reflection(run.reference, &run.session.reflection);

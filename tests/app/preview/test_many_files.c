@@ -161,10 +161,6 @@ static void write_many_files(void) {
 
 // --- the fixture ---------------------------------------------------------------------------------
 
-static bool load_scene_def(void *context, DipError *err) {
-    return dip_session_keep_model(context, err);
-}
-
 static int set_up(void **state) {
     (void)state;
     strcpy(strrchr(folder, '.') + 1, "XXXXXX");
@@ -185,8 +181,7 @@ static int set_up(void **state) {
                                .display = display,
                                .reload = reload,
                                .flying_speed_m_per_s = 1.0,
-                               .load_scene_def = load_scene_def,
-                               .context = &session};
+                               .load_scene_def = dip_session_keep_model};
     preview = dip_preview_create(&def, &err);
     assert_non_null(preview);
     write_many_files();

@@ -129,26 +129,24 @@ static double flip_of(const DipCostReport *report, int row) {
 static void steps_show_their_time_and_change_of_flip(void **state) {
     (void)state;
     DipCostReport report;
-    DipCosts costs;
     char expected[48], heading[DIP_COSTS_HEADING];
     dip_made_report(&report, 3);
-    dip_costs_make(&costs, &report);
+    const DipCostsRow row = dip_costs_row(&report, &report.sweeps[0]);
     dip_costs_heading(&report, heading);
     assert_string_equal(heading, "made up, 64x48, 2 threads, scalar");
-    assert_int_equal(costs.row_count, 1);
-    assert_string_equal(costs.rows[0].title, "Antialiasing");
-    assert_int_equal(costs.rows[0].step_count, 3);
-    assert_string_equal(costs.rows[0].steps[2].name, "4");
-    assert_memory_equal(costs.rows[0].steps[0].figures, "1x .", 4);
+    assert_int_equal(report.sweep_count, 1);
+    assert_string_equal(row.title, "Antialiasing");
+    assert_int_equal(row.step_count, 3);
+    assert_string_equal(row.steps[2].name, "4");
+    assert_memory_equal(row.steps[0].figures, "1x .", 4);
     const double change = flip_of(&report, 3) - flip_of(&report, 0);
     snprintf(expected, sizeof expected, "%.4f", fabs(change));
-    assert_memory_equal(costs.rows[0].steps[2].figures, "4.00x -", 7);
+    assert_memory_equal(row.steps[2].figures, "4.00x -", 7);
     assert_true(change < 0.0);
-    assert_string_equal(costs.rows[0].steps[2].figures + 7,
-                        expected[0] == '0' ? expected + 1 : expected);
+    assert_string_equal(row.steps[2].figures + 7, expected[0] == '0' ? expected + 1 : expected);
     DipQuality quality = dip_quality_default();
-    assert_true(dip_costs_is_at(&costs.rows[0], 0, &quality));
-    assert_false(dip_costs_is_at(&costs.rows[0], 2, &quality));
+    assert_true(dip_costs_is_at(&row, 0, &quality));
+    assert_false(dip_costs_is_at(&row, 2, &quality));
     dip_cost_report_free(&report);
 }
 
@@ -161,7 +159,6 @@ static void the_sheet_doubts_what_the_panel_doubts(void **state) {
     for (int kind = GOOD; kind < KINDS; kind++) {
         DipCostReport report;
         DipPrices *prices = dip_prices_create(NULL);
-        DipCosts costs;
         int doubtful = 0;
         dip_made_report(&report, 16);
         for (int f = 0; kind == SCATTERED && f < dip_cost_frame_count(&report); f++) {
@@ -170,19 +167,18 @@ static void the_sheet_doubts_what_the_panel_doubts(void **state) {
         assert_true(dip_cost_estimate_times(&report, NULL));
         report.verdict = kind == BUSY ? DIP_COST_RED : DIP_COST_GREEN;
         assert_true(dip_prices_set_report(prices, &report, NULL));
-        dip_costs_make(&costs, &report);
-        const DipCostsRow *row = &costs.rows[0];
-        for (int s = 1; s < row->step_count; s++) {
-            const DipQuality *quality = &row->steps[s].quality;
+        const DipCostsRow row = dip_costs_row(&report, &report.sweeps[0]);
+        for (int s = 1; s < row.step_count; s++) {
+            const DipQuality *quality = &row.steps[s].quality;
             const DipPrice price =
                 dip_prices_step(prices, DIP_SETTING_AA, quality->step[DIP_SETTING_AA], quality);
-            const bool marked = strchr(row->steps[s].time, '?') != NULL;
+            const bool marked = strchr(row.steps[s].time, '?') != NULL;
             assert_int_equal(marked, dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
             doubtful += marked;
         }
         assert_true(kind == GOOD        ? doubtful == 0
                     : kind == SCATTERED ? doubtful > 0
-                                        : doubtful == row->step_count - 1);
+                                        : doubtful == row.step_count - 1);
         dip_prices_destroy(&prices);
         dip_cost_report_free(&report);
     }

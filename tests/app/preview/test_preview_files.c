@@ -78,10 +78,6 @@ static void write_files(void) {
 
 // --- the fixture ---------------------------------------------------------------------------------
 
-static bool load_scene_def(void *context, DipError *err) {
-    return dip_session_keep_model(context, err);
-}
-
 static int set_up(void **state) {
     (void)state;
     strcpy(strrchr(folder, '.') + 1, "XXXXXX");
@@ -102,8 +98,7 @@ static int set_up(void **state) {
                                .display = display,
                                .reload = reload,
                                .flying_speed_m_per_s = 1.0,
-                               .load_scene_def = load_scene_def,
-                               .context = &session};
+                               .load_scene_def = dip_session_keep_model};
     preview = dip_preview_create(&def, &err);
     assert_non_null(preview);
     return 0;
@@ -549,7 +544,7 @@ static void errors_follow_the_new_scene(void **state) {
     write_picture("wall.ppm", 40, 200, 40);
     wait_for("Reloaded wall.ppm");
     wait_seconds(1);
-    assert_true(dip_preview_state(preview)->panel);
+    assert_true(dip_preview_shows_times(dip_preview_state(preview)));
 }
 
 // --- animations ----------------------------------------------------------------------------------

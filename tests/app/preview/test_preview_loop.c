@@ -35,8 +35,8 @@ static DipPreview *preview;
 
 static bool scene_is_broken; // The scene's file has become unreadable.
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     if (scene_is_broken) {
         return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");
     }
@@ -408,14 +408,14 @@ static void a_broken_scene_file_leaves_the_running_scene(void **state) {
     scene_is_broken = true;
     press('r');
     scene_is_broken = false;
-    assert_false(dip_preview_state(preview)->panel);
+    assert_false(dip_preview_shows_times(dip_preview_state(preview)));
     assert_non_null(strstr(dip_preview_state(preview)->notice, "the importer crashed"));
     for (int i = 0; i < 200; ++i) {
         turn();
     }
     assert_true(pane_is(DIP_PANE_CURRENT, before));
     press('r');
-    assert_true(dip_preview_state(preview)->panel);
+    assert_true(dip_preview_shows_times(dip_preview_state(preview)));
 }
 
 // A window that nobody sees draws nothing, and its time stands still. It goes on where it was.

@@ -33,8 +33,8 @@ static uint8_t old_pane[PANE_BYTES];
 static uint8_t new_pane[PANE_BYTES];
 static DipKeycode key; // The key under test.
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     (void)err;
     session.scene_def = scene.def;
     return true;

@@ -356,7 +356,7 @@ static void a_terminal_names_what_needs_a_window(void **state) {
         assert_memory_equal(&f->state.tools, &tools, sizeof tools);
     }
     press(f, DIP_ACTION_PANEL, 0, false);
-    assert_true(f->state.panel);
+    assert_true(dip_preview_shows_times(&f->state));
     f->state.in_terminal = false;
     press(f, DIP_ACTION_LOUPE, 0, false);
     assert_true(f->state.tools.loupe);
@@ -369,7 +369,7 @@ static void each_preset_has_its_own_settings(void **state) {
     static const char *const settings[] = {"aa=none", "aa=2", "aa=4", "aa=8", "aa=8,af=16"};
     Fixture *f = *state;
     DipCandidate list[5];
-    DipPreviewChoice choice = {.is_made = true, .state = DIP_CHOICE_KNOWN};
+    DipPreviewChoice choice = {.is_made = true, .known = DIP_PRICES_KNOWN};
     for (int i = 0; i < 5; ++i) {
         list[i] = (DipCandidate){.quality = parse(settings[i])};
     }

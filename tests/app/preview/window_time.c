@@ -101,7 +101,6 @@ static bool time_tab(int tab, const char *name, int width, int height) {
     bench.input.height = height;
     bench.state.tools.open = tab < DIP_TAB_COUNT;
     bench.state.tools.tab = tab < DIP_TAB_COUNT ? (DipTab)tab : DIP_TAB_SETTINGS;
-    dip_preview_follow_dock(&bench.state);
     for (int i = -2; i < FRAMES; ++i) { // The first frames draw everything.
         change_figures(i + 2);
         const int64_t begin_ns = dip_clock_ns();

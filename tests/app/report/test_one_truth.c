@@ -414,7 +414,7 @@ static void advice_of_a_live_report_is_dip_advise(void **state) {
     for (double budget_ms = 3.0; budget_ms < 14.0; budget_ms += 0.25) {
         dip_preview_choose(&of_live, live, &base, budget_ms);
         dip_preview_choose(&of_read, read_prices, &base, budget_ms);
-        assert_int_equal(of_live.state, DIP_CHOICE_KNOWN);
+        assert_int_equal(of_live.known, DIP_PRICES_KNOWN);
         const DipAdvice advice = dip_advise(&of_read.candidates, budget_ms);
         assert_int_equal(of_live.advice.chosen, advice.chosen);
         assert_int_equal(of_read.advice.chosen, advice.chosen);

@@ -29,8 +29,8 @@ static SDL_Joystick *joystick;
 
 // --- the fixture -------------------------------------------------------------------------------
 
-static bool load_scene_def(void *context, DipError *err) {
-    (void)context;
+static bool load_scene_def(DipSession *unused, DipError *err) {
+    (void)unused;
     (void)err;
     session.scene_def = scene.def;
     return true;
@@ -69,7 +69,7 @@ static int set_up(void **state) {
         paths[i] = make_path(1.0 + i);
         dip_camtrack_set(&session.track, i, paths[i], 60.0);
     }
-    if (!dip_sdl_display_open(&display, WIDTH, HEIGHT, &err)) {
+    if (!dip_sdl_display_open(&display, 0, WIDTH, HEIGHT, &err)) {
         fail_msg("%s", err.message);
     }
     const DipPreviewDef def = {.session = &session,
