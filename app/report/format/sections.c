@@ -387,7 +387,8 @@ void dip_section_interactions(DipForm *form, const DipCostReport *report) {
 
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {
     DipCostLine lines[DIP_COST_MAX_SWEEP_ROWS];
-    char id[32], set[32], title[DIP_COST_TEXT], caption[DIP_COST_TEXT + 64], order[2 * DIP_COST_TEXT];
+    char id[32], set[32], title[DIP_COST_TEXT], caption[DIP_COST_TEXT + 64],
+        order[2 * DIP_COST_TEXT];
     snprintf(id, sizeof id, "steps-%d", sweep);
     snprintf(set, sizeof set, "sweep-%d", sweep);
     dip_cost_sweep_title(report, &report->sweeps[sweep], title);
