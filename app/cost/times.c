@@ -23,8 +23,10 @@ enum {
     LEAST_SIDE = 64, // If the pictures' width or height is below this number of pixels, nothing is
                      // timed at half their size.
     REQUEST_SIZE = 512,
-    SEED_SALT = 0x517 // Mixed into the seed of dip_cost_time_elsewhere, for another order of
-                      // frames than that of the report's rows.
+    LEAST_ELSEWHERE = 16, // Least number of rounds of dip_cost_time_elsewhere: few combinations are
+                          // timed, and many are predicted from them.
+    SEED_SALT = 0x517     // Mixed into the seed of dip_cost_time_elsewhere, for another order of
+                          // frames than that of the report's rows.
 };
 
 // If the start of the first process takes longer than this share of the time of its rounds, only
@@ -234,7 +236,9 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
         .keep = where == ELSEWHERE ? NULL : keep_round,
         .context = t,
     };
-    const int rounds = report->options.rounds;
+    const int rounds = where == ELSEWHERE && report->options.rounds < LEAST_ELSEWHERE
+                           ? LEAST_ELSEWHERE
+                           : report->options.rounds;
     const DipDriverDef def = {
         .subjects = t->count,
         .base_of = t->base_of,
