@@ -23,8 +23,8 @@ enum {
     LEAST_SIDE = 64, // If the pictures' width or height is below this number of pixels, nothing is
                      // timed at half their size.
     REQUEST_SIZE = 512,
-    LEAST_ELSEWHERE = 16, // Least number of rounds of dip_cost_time_elsewhere: few combinations are
-                          // timed, and many are predicted from them.
+    LEAST_ELSEWHERE = 16, // Least number of rounds of dip_cost_time_elsewhere, if there are as many
+                          // frames.
     SEED_SALT = 0x517     // Mixed into the seed of dip_cost_time_elsewhere, for another order of
                           // frames than that of the report's rows.
 };
@@ -223,6 +223,16 @@ typedef enum Where {
     ELSEWHERE // This process draws. Times go to t->fit only.
 } Where;
 
+// Returns LEAST_ELSEWHERE, or the report's number of rounds if it is greater, but not more than
+// there are frames, each of which is timed in one round. More rounds of fewer frames each tell
+// times more exactly, since frames of one round share the luck of their moment.
+static int rounds_elsewhere(const DipCostReport *report) {
+    const int frames = dip_cost_frame_count(report);
+    const int rounds =
+        report->options.rounds > LEAST_ELSEWHERE ? report->options.rounds : LEAST_ELSEWHERE;
+    return rounds < frames ? rounds : frames;
+}
+
 // Times the subjects and counts their work.
 static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
                   DipError *err) {
@@ -236,9 +246,7 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
         .keep = where == ELSEWHERE ? NULL : keep_round,
         .context = t,
     };
-    const int rounds = where == ELSEWHERE && report->options.rounds < LEAST_ELSEWHERE
-                           ? LEAST_ELSEWHERE
-                           : report->options.rounds;
+    const int rounds = where == ELSEWHERE ? rounds_elsewhere(report) : report->options.rounds;
     const DipDriverDef def = {
         .subjects = t->count,
         .base_of = t->base_of,
