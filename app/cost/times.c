@@ -23,10 +23,8 @@ enum {
     LEAST_SIDE = 64, // If the pictures' width or height is below this number of pixels, nothing is
                      // timed at half their size.
     REQUEST_SIZE = 512,
-    LEAST_ELSEWHERE = 16, // Least number of rounds of dip_cost_time_elsewhere, if there are as many
-                          // frames.
-    SEED_SALT = 0x517     // Mixed into the seed of dip_cost_time_elsewhere, for another order of
-                          // frames than that of the report's rows.
+    SEED_SALT = 0x517 // Mixed into the seed of dip_cost_time_elsewhere, for another order of
+                      // frames than that of the report's rows.
 };
 
 // If the start of the first process takes longer than this share of the time of its rounds, only
@@ -223,16 +221,6 @@ typedef enum Where {
     ELSEWHERE // This process draws. Times go to t->fit only.
 } Where;
 
-// Returns LEAST_ELSEWHERE, or the report's number of rounds if it is greater, but not more than
-// there are frames, each of which is timed in one round. More rounds of fewer frames each tell
-// times more exactly, since frames of one round share the luck of their moment.
-static int rounds_elsewhere(const DipCostReport *report) {
-    const int frames = dip_cost_frame_count(report);
-    const int rounds =
-        report->options.rounds > LEAST_ELSEWHERE ? report->options.rounds : LEAST_ELSEWHERE;
-    return rounds < frames ? rounds : frames;
-}
-
 // Times the subjects and counts their work.
 static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const char *progress,
                   DipError *err) {
@@ -246,7 +234,7 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
         .keep = where == ELSEWHERE ? NULL : keep_round,
         .context = t,
     };
-    const int rounds = where == ELSEWHERE ? rounds_elsewhere(report) : report->options.rounds;
+    const int rounds = report->options.rounds;
     const DipDriverDef def = {
         .subjects = t->count,
         .base_of = t->base_of,
