@@ -362,6 +362,16 @@ static void a_terminal_names_what_needs_a_window(void **state) {
     assert_true(f->state.tools.loupe);
 }
 
+static void panes_only_show_no_times(void **state) {
+    Fixture *f = *state;
+    press(f, DIP_ACTION_PANEL, 0, false);
+    assert_true(dip_preview_shows_times(&f->state));
+    press(f, DIP_ACTION_BARE, 0, false);
+    assert_false(dip_preview_shows_times(&f->state));
+    press(f, DIP_ACTION_BARE, 0, false);
+    assert_true(dip_preview_shows_times(&f->state));
+}
+
 // Each measured preset gives the requested pane the settings of its candidate. While nothing is
 // measured it changes nothing and says so. This test also runs on objects that are built as users
 // get them, without assertions.
@@ -471,6 +481,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(time_stops_while_paused_or_flying, set_up, tear_down),
         cmocka_unit_test_setup_teardown(notices_disappear, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_terminal_names_what_needs_a_window, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(panes_only_show_no_times, set_up, tear_down),
         cmocka_unit_test_setup_teardown(each_preset_has_its_own_settings, set_up, tear_down),
         cmocka_unit_test(settings_are_described_in_words),
         cmocka_unit_test(the_camera_moves_and_turns),
