@@ -286,7 +286,7 @@ static void paste_settings(DipPreview *preview, int64_t now_ns) {
         return;
     }
     dip_preview_set_quality(state, DIP_PANE_REQUESTED, &quality, now_ns);
-    dip_preview_notice(state, now_ns, "Pasted: %.120s", text);
+    dip_preview_notice(state, now_ns, "Pasted: %.180s", text);
 }
 
 // Copies the requested settings as text to the clipboard, if the user asked for it.

@@ -53,7 +53,7 @@ static void try_settings(DipUi *ui, DipWindow *window, const DipQuality *quality
     char text[DIP_SETTINGS_BYTES];
     dip_quality_format_changes(quality, text, sizeof text);
     dip_preview_set_quality(window->state, DIP_PANE_REQUESTED, quality, dip_ui_now_ns(ui));
-    dip_preview_notice(window->state, dip_ui_now_ns(ui), "Requested: %.120s", text);
+    dip_preview_notice(window->state, dip_ui_now_ns(ui), "Requested: %.180s", text);
 }
 
 // --- the advice ----------------------------------------------------------------------------------

@@ -38,7 +38,7 @@ static void add_line(Lines *lines, int row, const char *prefix) {
     }
     if (lines->count < MOST_LINES) {
         dip_cost_settings_text(quality, settings);
-        snprintf(lines->names[lines->count], DIP_COST_TEXT, "%s%.140s", prefix, settings);
+        snprintf(lines->names[lines->count], DIP_COST_TEXT, "%s%.180s", prefix, settings);
         lines->rows[lines->count++] = row;
     }
 }

@@ -31,7 +31,7 @@ void dip_html_row_title(const DipCostReport *report, int row, char text[DIP_HTML
     dip_cost_settings_text(&report->rows[row].quality, settings);
     format_time(report, row, time);
     format_errors(&f, errors);
-    snprintf(text, DIP_HTML_TITLE_BYTES, "%.160s on path %s: %.150s%s%.120s", settings,
+    snprintf(text, DIP_HTML_TITLE_BYTES, "%.180s on path %s: %.150s%s%.120s", settings,
              report->paths[report->rows[row].path], time, *time ? "; " : "", errors);
 }
 
