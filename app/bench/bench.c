@@ -9,12 +9,14 @@
 #include "app/cli/progress.h"
 #include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
+#include "app/measure/timing/processors.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
 #include "renderer/post/post.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // A view is a scene with the camera path through it.
 typedef struct View {
@@ -43,6 +45,7 @@ typedef struct Context {
     View *views;
     int view_count;
     Drawer *drawers; // one per combination
+    int processors;  // how many this process may use, as draw_here has set it; 0: all
 } Context;
 
 // --- views -------------------------------------------------------------------------------------
@@ -234,14 +237,26 @@ static bool draw_frame(Context *bench, int combination, int frame, DipFrame *pic
 
 // --- programs ------------------------------------------------------------------------------------
 
-static bool draw_here(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
-                      DipError *err) {
+static bool draw_sample(Context *bench, int combination, int frame, bool hash,
+                        DipBenchSample *sample, DipError *err) {
     DipFrame picture;
-    if (!draw_frame(context, combination, frame, &picture, err)) {
+    if (!draw_frame(bench, combination, frame, &picture, err)) {
         return false;
     }
     dip_bench_sample_set(sample, &picture, hash);
     return true;
+}
+
+// Draws in this process, which is the only one that is measured.
+static bool draw_here(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
+                      DipError *err) {
+    Context *bench = context;
+    const int threads = dip_bench_values(bench->plan, combination).threads;
+    if (threads != bench->processors) {
+        dip_processors_confine((long)getpid(), threads);
+        bench->processors = threads;
+    }
+    return draw_sample(bench, combination, frame, hash, sample, err);
 }
 
 typedef struct Server {
@@ -258,7 +273,7 @@ static bool answer(void *context, const char *request, DipBenchSample *sample, D
                                      "'%.60s' is not a request; give draw COMBINATION FRAME 0|1",
                                      request);
     }
-    return draw_here(server->bench, combination, frame, hash != 0, sample, err);
+    return draw_sample(server->bench, combination, frame, hash != 0, sample, err);
 }
 
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
@@ -269,19 +284,27 @@ static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError 
     return done;
 }
 
+// A program that draws in another process.
+typedef struct Rival {
+    const DipBenchPlan *plan;
+    DipChild *child;
+} Rival;
+
 static bool draw_there(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
                        DipError *err) {
+    const Rival *rival = context;
     char request[64];
     DipTimed timed;
+    dip_child_confine(rival->child, dip_bench_values(rival->plan, combination).threads);
     snprintf(request, sizeof request, "draw %d %d %d", combination, frame, hash);
-    return dip_child_draw(context, request, sample, &timed, err);
+    return dip_child_draw(rival->child, request, sample, &timed, err);
 }
 
 // The programs that are measured. Without --vs, this process is the only one. With --vs, both
 // programs run as child processes, so that neither has an advantage.
 typedef struct Programs {
     Context *here;
-    DipChild *children[2];
+    Rival rivals[2];
     DipBenchSource sources[2];
     DipBenchResult results[2];
     int count;
@@ -300,9 +323,10 @@ static bool open_programs(Programs *programs, const DipProgramOptions *program,
     for (int p = 0; p < 2; p++) {
         const DipChildDef def = {files[p],    program->argv,   program->argc, "bench",
                                  plan->count, options->frames, "--vs"};
-        programs->children[p] = dip_child_start(&def, err);
-        programs->sources[p] = (DipBenchSource){draw_there, programs->children[p]};
-        if (!programs->children[p] || !dip_bench_result_init(&programs->results[p], plan, err)) {
+        programs->rivals[p] = (Rival){plan, dip_child_start(&def, err)};
+        programs->sources[p] = (DipBenchSource){draw_there, &programs->rivals[p]};
+        if (!programs->rivals[p].child ||
+            !dip_bench_result_init(&programs->results[p], plan, err)) {
             return false;
         }
     }
@@ -333,7 +357,7 @@ static bool measure(const DipProgramOptions *program, const DipBenchPlan *plan,
         dip_bench_measure(plan, programs.sources, programs.count, programs.results, err) &&
         print_and_write(&programs, plan, session, err);
     for (int p = 0; p < 2; p++) {
-        dip_child_stop(&programs.children[p], dip_interrupted());
+        dip_child_stop(&programs.rivals[p].child, dip_interrupted());
         dip_bench_result_free(&programs.results[p]);
     }
     destroy_context(&programs.here);

@@ -8,12 +8,14 @@
 #include "app/cli/progress.h"
 #include "app/cost/steps.h"
 #include "app/measure/timing/child.h"
+#include "app/measure/timing/processors.h"
 #include "renderer/base/clock.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     BASE_COPIES = 3, // Number of rounds in which each frame of the baseline is timed. More than one
@@ -185,6 +187,9 @@ static bool start(void *context, int index, DipError *err) {
     (void)index;
     dip_child_stop(&t->child, dip_interrupted());
     t->child = dip_child_start(&def, err);
+    if (t->child) {
+        dip_child_confine(t->child, t->cost->report->threads);
+    }
     return t->child != NULL;
 }
 
@@ -249,6 +254,7 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
         .most_wait = DIP_TIMED_MOST_WAIT,
         .most_start = where == KEPT ? most_start : 0.0,
     };
+    dip_processors_confine((long)getpid(), starts ? 0 : report->threads);
     DipDriver *driver = dip_driver_create(&def, &calls, err);
     bool done = driver && (where != KEPT || resume(t, driver, err)) &&
                 dip_drive(driver, progress, "cost", dip_cost_interrupted_text(t->cost), err);
@@ -268,6 +274,7 @@ static bool drive(Timing *t, Where where, int block_rows, uint64_t seed, const c
     }
     dip_child_stop(&t->child, dip_interrupted());
     dip_driver_destroy(&driver);
+    dip_processors_confine((long)getpid(), 0);
     return done && average_work(t, err);
 }
 

@@ -176,6 +176,7 @@ static bool start_programs(void *context, int start, DipError *err) {
             const int threads = (dip_child_thread_count(p->children[i]) + 1) / 2;
             duel->threads = threads > 0 ? threads : 1;
         }
+        dip_child_confine(p->children[i], duel->threads);
     }
     return true;
 }

@@ -2,6 +2,7 @@
 // holds the child's side, which answers.
 #include "app/measure/timing/child.h"
 
+#include "app/measure/timing/processors.h"
 #include "app/measure/timing/thread_use.h"
 #include "renderer/base/number.h"
 
@@ -33,6 +34,7 @@ struct DipChild {
     FILE *to;              // The child's standard input.
     FILE *from;            // The child's standard output.
     DipThreadWatch *watch; // NULL if the system does not tell the threads' times.
+    int processors;        // The last number given to dip_child_confine; 0 before.
 };
 
 // --- starting ----------------------------------------------------------------------------------
@@ -144,6 +146,13 @@ DipChild *dip_child_start(const DipChildDef *def, DipError *err) {
 
 int dip_child_thread_count(const DipChild *child) {
     return dip_thread_watch_count(child->watch);
+}
+
+void dip_child_confine(DipChild *child, int threads) {
+    if (threads != child->processors) {
+        dip_processors_confine((long)child->pid, threads);
+        child->processors = threads;
+    }
 }
 
 void dip_child_stop(DipChild **child_pointer, bool at_once) {
