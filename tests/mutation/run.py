@@ -11,6 +11,7 @@ that it can be stopped and started again. Mutants that survived are tested again
     tests/mutation/run.py --count 9 --folder app/control    random mutants of one folder
     tests/mutation/run.py --guards                the mutants of guards.txt
     tests/mutation/run.py --report                prints the journal as a table
+    tests/mutation/run.py --check    fails if a guard quotes what its file does not have exactly once
 """
 import argparse
 import hashlib
@@ -118,6 +119,17 @@ def read_guards():
         else:
             guards.append((lines[0], lines[1], old, new))
     return guards, equivalent
+
+
+def stale_guards():
+    """Lists the guards whose lines are not exactly once in their file."""
+    stale = []
+    for name, file, old, _ in read_guards()[0]:
+        path = TOP / file
+        found = path.read_text().count(old) if path.exists() else 0
+        if found != 1:
+            stale.append("%s: %s has these lines %d times:\n%s" % (name, file, found, old))
+    return stale
 
 
 def run(command, seconds, folder=TREE):
@@ -271,12 +283,16 @@ def main():
                         help="take random mutants from this folder only; may be given several times")
     parser.add_argument("--guards", action="store_true", help="test the mutants of guards.txt")
     parser.add_argument("--report", action="store_true", help="only print what the journal holds")
+    parser.add_argument("--check", action="store_true",
+                        help="only check that the files have the lines that guards.txt quotes")
     parser.add_argument("--list", action="store_true", help="only list the mutants")
     parser.add_argument("--journal", type=pathlib.Path, default=WORK / "journal.jsonl")
     options = parser.parse_args()
     if options.report:
         report(options.journal)
         return
+    if options.check:
+        sys.exit("\n".join(stale_guards()) or None)
     head = prepare()
     mutants = []
     if options.guards:
