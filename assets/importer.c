@@ -5,6 +5,7 @@
 
 #include "assets/importer_private.h"
 #include "assets/model_parts.h"
+#include "assets/pack/scene_pack.h"
 
 #ifdef __linux__
 
@@ -476,18 +477,23 @@ static bool take_pack(const Child *child, DipModel *model, DipError *err) {
     if (!map_pack(child, model, err)) {
         return false;
     }
+    DipScenePack *pack = dip_model_alloc(model, 1, sizeof *pack);
+    if (!pack) {
+        return dip_model_out_of_memory(err, child->load->files[0]);
+    }
+    model->pack = pack;
     DipError malformed;
-    if (!dip_scene_pack_read(model->pack_bytes, model->pack_size_bytes, &model->pack, &malformed)) {
+    if (!dip_scene_pack_read(model->pack_bytes, model->pack_size_bytes, pack, &malformed)) {
         return dip_error_set(err, malformed.code, child->load->files[0], 0, NULL, "%s",
                              malformed.message);
     }
-    if (model->pack.failure.code != DIP_ERROR_NONE) {
-        return pass_on_failure(child, &model->pack.failure, err);
+    if (pack->failure.code != DIP_ERROR_NONE) {
+        return pass_on_failure(child, &pack->failure, err);
     }
-    pass_on_warnings(&model->pack.warnings, child->load->warnings);
-    model->def = model->pack.scene;
-    model->clip_names = model->pack.clips;
-    model->clip_count = model->pack.clip_count;
+    pass_on_warnings(&pack->warnings, child->load->warnings);
+    model->def = pack->scene;
+    model->clip_names = pack->clips;
+    model->clip_count = pack->clip_count;
     return true;
 }
 
@@ -524,7 +530,7 @@ DipModel *dip_model_load_in_child(const DipModelLoad *load, const DipImporter *i
         dip_model_destroy(&model);
         return NULL;
     }
-    model->times.pictures_ms = model->pack.times.pictures_ms;
+    model->times.pictures_ms = model->pack->times.pictures_ms;
     model->times.import_ms = 1e-6 * (double)(dip_clock_ns() - begin_ns) - model->times.pictures_ms;
     return model;
 }

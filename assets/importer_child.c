@@ -5,6 +5,7 @@
 
 #include "assets/importer_private.h"
 #include "assets/model_parts.h"
+#include "assets/pack/scene_pack.h"
 
 #ifdef __linux__
 

@@ -6,6 +6,7 @@
 #include "assets/gltf/reader.h"
 #include "assets/importer.h"
 #include "assets/model_parts.h"
+#include "assets/pack/scene_pack.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/fp_mode.h"
 
@@ -493,7 +494,9 @@ void dip_model_destroy(DipModel **model_pointer) {
     }
     *model_pointer = NULL;
     release_scenes(model);
-    dip_scene_pack_free(&model->pack);
+    if (model->pack) {
+        dip_scene_pack_free(model->pack);
+    }
     dip_model_unmap_pack(model);
     for (int i = 0; i < model->picture_count; ++i) {
         dip_picture_free(&model->pictures[i].picture);

@@ -10,7 +10,6 @@
 
 #include "assets/model.h"
 #include "assets/picture.h"
-#include "assets/pack/scene_pack.h"
 #include "renderer/scene/motion.h"
 #include "renderer/scene/scene.h"
 
@@ -170,8 +169,8 @@ struct DipModel {
     DipMovingObject *moving_objects;
     DipMovingMesh *moving_meshes;
     // The model of an importer has only a pack, whose scene is `def`, and the pack's bytes.
-    DipScenePack pack;
-    void *pack_bytes; // mapped memory, or NULL
+    struct DipScenePack *pack; // one of `blocks`, or NULL
+    void *pack_bytes;          // mapped memory, or NULL
     size_t pack_size_bytes;
 };
 

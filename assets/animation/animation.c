@@ -1,14 +1,12 @@
-// Loads animated models: chooses the reader, and owns what it makes.
+// Animated models while they are loaded: owns what the readers make.
 #include "assets/animation.h"
 
 #include "assets/animation/animation_parts.h"
 #include "assets/importer.h"
 #include "assets/picture.h"
-#include "renderer/base/fp_mode.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 // Most memory of a model without its pictures. A small glTF file can ask for much, because its
 // meshes may share the bytes of the file.
@@ -116,35 +114,6 @@ bool dip_animated_add_picture_file(DipAnimatedModel *model, const char *picture_
 
 // --- the model -----------------------------------------------------------------------------------
 
-typedef bool ReadModel(DipAnimatedModel *model, DipError *err);
-
-static ReadModel *reader_of(const char *path) {
-    const char *dot = strrchr(path, '.');
-    if (dot && strcasecmp(dot, ".md2") == 0) {
-        return dip_animated_read_md2;
-    }
-    const bool is_gltf = dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0);
-    return is_gltf ? dip_animated_read_gltf : NULL;
-}
-
-static bool read_model(DipAnimatedModel *model, DipError *err) {
-    ReadModel *read = reader_of(model->path);
-    if (!read) {
-        return dip_error_set(err, DIP_ERROR_FORMAT, model->path, 0, NULL,
-                             "the file is not an animated model, accepted .md2, .gltf and .glb");
-    }
-    if (!read(model, err)) {
-        return false;
-    }
-    model->def.textures = model->textures;
-    model->def.materials = model->materials;
-    model->def.meshes = model->meshes;
-    model->def.objects = model->objects;
-    model->def.animations = model->animations;
-    model->def.key_frames = model->key_frames;
-    return true;
-}
-
 DipAnimatedModel *dip_animated_model_make(const char *path) {
     DipAnimatedModel *model = calloc(1, sizeof *model);
     if (model) {
@@ -163,25 +132,6 @@ DipRig dip_animated_rig(const DipAnimatedModel *model) {
                     .node_count = model->node_count,
                     .rest_weights = model->rest_weights,
                     .weight_count = model->weight_count};
-}
-
-DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
-                                          DipErrorList *warnings, DipError *err) {
-    DIP_FP_MODE_SCOPE();
-    DipAnimatedModel *model = dip_animated_model_make(file);
-    if (!model) {
-        dip_model_out_of_memory(err, file);
-        return NULL;
-    }
-    model->store->warnings = warnings;
-    model->importer = importer;
-    if (!read_model(model, err)) {
-        dip_animated_model_destroy(&model);
-        return NULL;
-    }
-    model->store->warnings = NULL;
-    model->importer = NULL;
-    return model;
 }
 
 void dip_animated_model_destroy(DipAnimatedModel **model_pointer) {

@@ -1,6 +1,7 @@
 // The animated model while it is loaded and posed. Private to assets/.
 //
-// animation_md2.c and animation_gltf.c fill the model, animation_pose.c evaluates it.
+// The readers of MD2 (animation_md2.c) and glTF (gltf/animated_model.c) fill the model,
+// animation_pose.c evaluates it.
 #ifndef DIP_ASSETS_ANIMATION_ANIMATION_PARTS_H
 #define DIP_ASSETS_ANIMATION_ANIMATION_PARTS_H
 
@@ -77,9 +78,8 @@ bool dip_animated_add_picture(DipAnimatedModel *model, const uint8_t *bytes, siz
 // animation.c: a white, opaque, double-sided material without textures.
 DipMaterialDef dip_animated_material(const char *name);
 
-// The readers. They fill the model's arrays and counts, and leave a part of them if they fail.
+// animation_md2.c: fills the model's arrays and counts, and leaves a part of them if it fails.
 bool dip_animated_read_md2(DipAnimatedModel *model, DipError *err);
-bool dip_animated_read_gltf(DipAnimatedModel *model, DipError *err);
 
 // animation_md2.c: reads everything but the material, so no picture. *skin becomes the name of the
 // picture, or an empty text.

@@ -1,8 +1,8 @@
 // The state of the reader of glTF files, shared by its parts. Private to assets/.
 //
 // The same reader serves three purposes. Scenes (scene.c) need all attributes of the meshes, and at
-// most one animation. Animated models (animation/animation_gltf.c) keep what DipAnimatedMesh can
-// hold. Cameras (cameras.c) need nodes and animations only.
+// most one animation. Animated models (animated_model.c) keep what DipAnimatedMesh can hold.
+// Cameras (cameras.c) need nodes and animations only.
 #ifndef DIP_ASSETS_GLTF_READER_H
 #define DIP_ASSETS_GLTF_READER_H
 
@@ -58,8 +58,10 @@ bool dip_gltf_no_room(const DipGltfReader *reader);
 const char *dip_gltf_name(DipGltfReader *reader, const struct cJSON *item, const char *kind,
                           int index);
 
-// animation/animation_gltf.c: finds the material of an animated model for one of the file, -1: the
-// default.
+// animated_model.c: fills the model's arrays and counts, and leaves a part of them if it fails.
+bool dip_animated_read_gltf(DipAnimatedModel *model, DipError *err);
+
+// animated_model.c: finds the material of an animated model for one of the file, -1: the default.
 bool dip_gltf_material(DipGltfReader *reader, int index, int *material);
 
 // meshes.c: reads all meshes.
