@@ -11,6 +11,7 @@
 #include "renderer/base/fp_mode.h"
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/raster/tile.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/catalogue/random.h"
 

@@ -5,6 +5,7 @@
 #include "renderer/base/srgb.h"
 #include "renderer/base/trig.h"
 #include "renderer/pipeline/cull.h"
+#include "renderer/pipeline/geometry/project.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/reference/convergence.h"
 #include "renderer/catalogue/random.h"

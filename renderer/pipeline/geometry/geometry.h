@@ -11,7 +11,7 @@
 
 #include "renderer/pipeline/geometry/project.h"
 #include "renderer/pipeline/geometry/setup.h"
-#include "renderer/pipeline/geometry/triangle.h"
+#include "renderer/pipeline/raster/triangle.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/pipeline/raster/tile.h"

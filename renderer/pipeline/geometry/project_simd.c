@@ -1,4 +1,5 @@
 // Projection of a batch of clip positions, compiled once per instruction set.
+#include "renderer/pipeline/geometry/project.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/simd/vec.h"
 

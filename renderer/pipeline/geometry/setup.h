@@ -3,7 +3,7 @@
 #define DIP_RENDERER_PIPELINE_GEOMETRY_SETUP_H
 
 #include "renderer/pipeline/geometry/project.h"
-#include "renderer/pipeline/geometry/triangle.h"
+#include "renderer/pipeline/raster/triangle.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/pipeline.h"
 

@@ -3,13 +3,30 @@
 #define DIP_RENDERER_PIPELINE_KERNELS_KERNELS_H
 
 #include "renderer/base/isa.h"
-#include "renderer/pipeline/geometry/project.h"
-#include "renderer/pipeline/geometry/setup.h"
-#include "renderer/pipeline/merge/ordered.h"
-#include "renderer/pipeline/raster/tile.h"
 #include "renderer/pipeline/shader.h"
-#include "renderer/pipeline/shading/tile_shading.h"
+#include "renderer/pipeline/state.h"
 #include "renderer/simd/kernel_table.h"
+
+#include <stdint.h>
+
+// What the kernels of other folders read and write. The table needs only the names of these types.
+// It therefore includes none of those folders, and each of them can use the table.
+typedef struct DipBlockLight DipBlockLight;       // merge/ordered.h
+typedef struct DipBlockLight16 DipBlockLight16;   // merge/ordered.h
+typedef struct DipClipTest DipClipTest;           // raster/fragments.h
+typedef struct DipEncodedBatch DipEncodedBatch;   // shading/tile_shading.h
+typedef struct DipFragmentList DipFragmentList;   // raster/fragments.h
+typedef struct DipOrdered DipOrdered;             // merge/ordered.h
+typedef struct DipOrderedBatch DipOrderedBatch;   // merge/ordered.h
+typedef struct DipScreenBatch DipScreenBatch;     // geometry/project.h
+typedef struct DipScreenMapping DipScreenMapping; // geometry/project.h
+typedef struct DipSetupBatch DipSetupBatch;       // geometry/setup.h
+typedef struct DipSetupTarget DipSetupTarget;     // geometry/setup.h
+typedef struct DipShadingInput DipShadingInput;   // shading/tile_shading.h
+typedef struct DipTile DipTile;                   // raster/tile.h
+typedef struct DipTileColours DipTileColours;     // merge/ordered.h
+typedef struct DipTileShading DipTileShading;     // shading/tile_shading.h
+typedef struct DipTriangle DipTriangle;           // raster/triangle.h
 
 // The list of kernels, as X(result, name, parameters). The declarations and the tables are made
 // from this list.
@@ -36,10 +53,10 @@
       (const DipTileColours *colours, int block, const uint8_t *srgb_code, uint32_t *rgba8))       \
     /* Averages the colours of the samples of a block to 16-bit linear light. */                   \
     X(void, dip_kernel_resolve_light16,                                                            \
-      (const DipTileColours *colours, int block, int32_t(*light16)[DIP_BLOCK_PIXELS]))             \
+      (const DipTileColours *colours, int block, DipBlockLight16 *light16))                        \
     /* Averages the samples of a block to floats. */                                               \
     X(void, dip_kernel_resolve_light,                                                              \
-      (const DipTileColours *colours, int block, float(*light)[DIP_BLOCK_PIXELS]))                 \
+      (const DipTileColours *colours, int block, DipBlockLight *light))                            \
     /* Adds the fragments of a tile's pixels to the lists of their draws. */                       \
     X(void, dip_kernel_collect, (DipTileShading * shading))                                        \
     /* Interpolates varyings; the last value_only_count get no derivatives. */                     \

@@ -137,7 +137,7 @@ static void store_codes(const DipMergePass *pass, const DipTile *tile, int block
 }
 
 static void store_light(const DipMergePass *pass, const DipTile *tile, int block,
-                        float light[CHANNELS][DIP_BLOCK_PIXELS]) {
+                        const DipBlockLight *light) {
     const DipTarget *target = &pass->pass->target;
     for (int y = 0; y < DIP_BLOCK; y++) {
         const Row row = row_of(pass, tile, block, y);
@@ -147,7 +147,7 @@ static void store_light(const DipMergePass *pass, const DipTile *tile, int block
         }
         float line[CHANNELS][DIP_BLOCK];
         for (int c = 0; c < CHANNELS; c++) {
-            copy_row_out(&row, y, light[c], line[c]);
+            copy_row_out(&row, y, light->channel[c], line[c]);
         }
         if (target->format == DIP_FORMAT_CALLER) {
             const float *const rows[CHANNELS] = {line[0], line[1], line[2], line[3]};
@@ -175,14 +175,14 @@ static void store_clear(const DipMergePass *pass, const DipTile *tile, int block
 // Stores the mean of each pixel's samples in the light of the tile.
 static void resolve_to_light16(const DipMergePass *pass, DipMergeTile *merge, const DipTile *tile,
                                int block, uint16_t *light16) {
-    int32_t means[3][DIP_BLOCK_PIXELS];
+    DipBlockLight16 means;
     dip_merge_ready_block(pass, merge, tile, block);
-    pass->kernels->dip_kernel_resolve_light16(&merge->colours, block, means);
+    pass->kernels->dip_kernel_resolve_light16(&merge->colours, block, &means);
     light16 += block / DIP_TILE_BLOCKS * DIP_BLOCK * DIP_TILE + block % DIP_TILE_BLOCKS * DIP_BLOCK;
     for (int c = 0; c < 3; c++, light16 += DIP_TILE_PIXELS) {
         for (int y = 0; y < DIP_BLOCK; y++) {
             for (int x = 0; x < DIP_BLOCK; x++) {
-                light16[y * DIP_TILE + x] = (uint16_t)means[c][dip_block_pixel(x, y)];
+                light16[y * DIP_TILE + x] = (uint16_t)means.channel[c][dip_block_pixel(x, y)];
             }
         }
     }
@@ -209,9 +209,9 @@ static void resolve_colours(const DipMergePass *pass, DipMergeTile *merge, const
                                                 srgb ? pass->srgb->code : NULL, rgba8);
         store_codes(pass, tile, block, rgba8);
     } else {
-        float light[CHANNELS][DIP_BLOCK_PIXELS];
-        pass->kernels->dip_kernel_resolve_light(&merge->colours, block, light);
-        store_light(pass, tile, block, light);
+        DipBlockLight light;
+        pass->kernels->dip_kernel_resolve_light(&merge->colours, block, &light);
+        store_light(pass, tile, block, &light);
     }
 }
 

@@ -2,6 +2,7 @@
 // Each blend is two products and a sum, each rounded once, so every instruction set gives the same
 // bits.
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/merge/ordered.h"
 #include "renderer/simd/vec.h"
 
 enum { VECTORS = DIP_SUB_BLOCK_PIXELS / DIP_LANES, CHANNELS = 4, ALPHA = 3 };

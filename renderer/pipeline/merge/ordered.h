@@ -7,8 +7,8 @@
 #ifndef DIP_RENDERER_PIPELINE_MERGE_ORDERED_H
 #define DIP_RENDERER_PIPELINE_MERGE_ORDERED_H
 
+#include "renderer/pipeline/raster/fragments.h"
 #include "renderer/pipeline/raster/tile.h"
-#include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/pipeline/state.h"
 
 #include <stdbool.h>
@@ -28,6 +28,16 @@ typedef struct DipTileColours {
     uint64_t ready;    // bit b: block b has colours
     uint64_t split[4]; // one bit per sub-block, see dip_sub_block_number
 } DipTileColours;
+
+// The means of a block's samples in linear light: red, green, blue and alpha, and as 16-bit values
+// without alpha.
+typedef struct DipBlockLight {
+    float channel[4][DIP_BLOCK_PIXELS];
+} DipBlockLight;
+
+typedef struct DipBlockLight16 {
+    int32_t channel[3][DIP_BLOCK_PIXELS];
+} DipBlockLight16;
 
 // Returns the number, 0..255, of the sub-block that holds value `first` of the tile's arrays.
 static inline int dip_sub_block_number(int first, int sample_count) {

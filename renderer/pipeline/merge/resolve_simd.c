@@ -1,5 +1,6 @@
 // Averages the samples of a block's pixels, compiled once per instruction set.
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/merge/ordered.h"
 #include "renderer/simd/vec.h"
 
 // Returns 16-bit linear light, 0..65535, as dip_kernel_encode rounds it. v must lie within 0..1.
@@ -44,19 +45,19 @@ void DIP_KERNEL(dip_kernel_resolve_codes)(const DipTileColours *colours, int blo
 }
 
 void DIP_KERNEL(dip_kernel_resolve_light16)(const DipTileColours *colours, int block,
-                                            int32_t (*light16)[DIP_BLOCK_PIXELS]) {
+                                            DipBlockLight16 *light16) {
     const int first = block * colours->sample_count * DIP_BLOCK_PIXELS;
     for (int i = 0; i < DIP_BLOCK_PIXELS; i += DIP_LANES) {
         const bool split = dip_is_split(colours, block * 4 + i / DIP_SUB_BLOCK_PIXELS);
         for (int c = 0; c < 3; c++) {
-            vi_store(light16[c] + i,
+            vi_store(light16->channel[c] + i,
                      mean16(colours->channel[c], first + i, colours->sample_count, split));
         }
     }
 }
 
 void DIP_KERNEL(dip_kernel_resolve_light)(const DipTileColours *colours, int block,
-                                          float (*light)[DIP_BLOCK_PIXELS]) {
+                                          DipBlockLight *light) {
     const int sample_count = colours->sample_count;
     const int first = block * sample_count * DIP_BLOCK_PIXELS;
     for (int c = 0; c < 4; c++) {
@@ -70,7 +71,7 @@ void DIP_KERNEL(dip_kernel_resolve_light)(const DipTileColours *colours, int blo
                 }
                 sum /= sample_count;
             }
-            light[c][i] = (float)sum;
+            light->channel[c][i] = (float)sum;
         }
     }
 }

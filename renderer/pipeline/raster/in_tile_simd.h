@@ -17,6 +17,9 @@
 #define DIP_RENDERER_PIPELINE_RASTER_IN_TILE_SIMD_H
 
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/raster/fragments.h"
+#include "renderer/pipeline/raster/tile.h"
+#include "renderer/pipeline/raster/triangle.h"
 #include "renderer/simd/vec.h"
 
 enum {

@@ -8,7 +8,7 @@
 #ifndef DIP_RENDERER_PIPELINE_RASTER_TILE_H
 #define DIP_RENDERER_PIPELINE_RASTER_TILE_H
 
-#include "renderer/pipeline/geometry/triangle.h"
+#include "renderer/pipeline/raster/triangle.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/target.h"
 
@@ -16,6 +16,7 @@
 
 enum {
     DIP_TILE = DIP_TARGET_TILE,
+    DIP_TILE_PIXELS = DIP_TILE * DIP_TILE,
     DIP_BLOCK = 8,
     DIP_TILE_BLOCKS = DIP_TILE / DIP_BLOCK, // number of blocks in a row of a tile
     DIP_BLOCKS = DIP_TILE_BLOCKS * DIP_TILE_BLOCKS,

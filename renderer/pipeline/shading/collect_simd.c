@@ -3,6 +3,7 @@
 // handled as a mask of 16 bits. Within a sub-block, pixels whose samples all show one patch are
 // added draw by draw. Pixels that show several patches are added patch by patch.
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/simd/vec.h"
 
 #include <stddef.h>

@@ -2,6 +2,7 @@
 // file is compiled once per instruction set.
 #include "renderer/base/pages.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/simd/pairs.h"
 
 // If the fragments of a vector lie on at most this many triangles, the planes are read triangle by

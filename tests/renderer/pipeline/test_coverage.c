@@ -6,6 +6,7 @@
 #include "renderer/base/assert.h"
 #include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/raster/fragments.h"
 #include "renderer/catalogue/oracle.h"
 
 #include <setjmp.h>

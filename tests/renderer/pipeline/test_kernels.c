@@ -2,7 +2,9 @@
 // input includes special values: zeros, infinities, NaN, huge and tiny numbers.
 #include "renderer/base/assert.h"
 #include "renderer/base/srgb.h"
+#include "renderer/pipeline/geometry/setup.h"
 #include "renderer/pipeline/kernels/kernels.h"
+#include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/pipeline/texture/texture_layout.h"
 #include "renderer/scene/materials/surface.h"
 #include "renderer/catalogue/random.h"

@@ -1,7 +1,7 @@
 // A triangle after set-up: the data that coverage reads, and the layout of the triangle's shading
 // planes.
-#ifndef DIP_RENDERER_PIPELINE_GEOMETRY_TRIANGLE_H
-#define DIP_RENDERER_PIPELINE_GEOMETRY_TRIANGLE_H
+#ifndef DIP_RENDERER_PIPELINE_RASTER_TRIANGLE_H
+#define DIP_RENDERER_PIPELINE_RASTER_TRIANGLE_H
 
 #include <stdint.h>
 
