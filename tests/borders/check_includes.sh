@@ -1,7 +1,7 @@
 #!/bin/sh
-# Fails when a file includes a header of a library that it may not use, a private header of another
-# library, or a header of a folder that stands above its own folder in the same library.
-# tests/borders/layers.txt says which libraries a library may use, and how its folders are ordered.
+# Fails when a file includes a header of a library that it may not use or a private header of
+# another library, or when the includes between the product's folders have a cycle.
+# tests/borders/layers.txt says which libraries a library may use.
 #
 # Usage: check_includes.sh LAYERS ROOT [LEAST]
 # Also fails when the tree has fewer than LEAST (default 100) includes between libraries.
@@ -19,19 +19,47 @@ find renderer config campaths assets app -name '*.[ch]' | sort |
         }
         return best
     }
-    # The folder of a file within its library; empty if the file stands at the top of the library.
-    function folder_of(path, library,    rest) {
-        rest = substr(path, length(library) + 2)
-        return rest ~ /\// ? library "/" substr(rest, 1, index(rest, "/") - 1) : ""
+    function folder_of(path) {
+        sub(/\/[^\/]*$/, "", path)
+        return path
     }
-    function check_folders(library, includes,    own, other) {
-        own = folder_of(FILENAME, library)
-        other = folder_of(includes, library)
-        if (own == "" || other == "" || own == other) {
+    # Notes that a folder includes a header of another folder. A source may also include headers of
+    # the folders below its own in its library: they hold private parts that the source uses, and
+    # they include the headers beside it but never the source.
+    function note_folders(header, within,    own, other) {
+        own = folder_of(FILENAME)
+        other = folder_of(header)
+        if (own == other || (within && FILENAME ~ /\.c$/ && index(other, own "/") == 1)) {
             return
         }
-        if (!(own in rank) || !(other in rank) || rank[other] > rank[own]) {
-            printf "%s:%d: %s may not include headers of %s\n", FILENAME, FNR, own, other
+        places[own, other] = places[own, other] sprintf("%s:%d: %s includes headers of %s\n",
+            FILENAME, FNR, own, other)
+    }
+    # Drops steps from one folder to another that are in no cycle: again and again, those to a folder
+    # that no step leaves, and those from a folder that no step enters. Prints what is left, if there
+    # is a cycle.
+    function check_folders(    step, ends, leaves, enters, dropped, crossed_folders) {
+        do {
+            split("", leaves)
+            split("", enters)
+            for (step in places) {
+                split(step, ends, SUBSEP)
+                leaves[ends[1]] = enters[ends[2]] = 1
+            }
+            dropped = 0
+            for (step in places) {
+                split(step, ends, SUBSEP)
+                if (!(ends[2] in leaves) || !(ends[1] in enters)) {
+                    delete places[step]
+                    dropped++
+                }
+            }
+        } while (dropped)
+        for (step in places) {
+            if (!crossed_folders++) {
+                print "these includes between folders have a cycle:"
+            }
+            printf "%s", places[step]
             crossed = 1
         }
     }
@@ -40,16 +68,9 @@ find renderer config campaths assets app -name '*.[ch]' | sort |
             if (line ~ /^#/ || split(line, field) == 0) {
                 continue
             }
-            if (sub(/:$/, "", field[1])) {
-                ordered[field[1]] = 1
-                for (i = 2; i in field; i++) {
-                    rank[field[1] "/" field[i]] = i
-                }
-            } else {
-                allowed[field[1]] = " "
-                for (i = 2; i in field; i++) {
-                    allowed[field[1]] = allowed[field[1]] field[i] " "
-                }
+            allowed[field[1]] = " "
+            for (i = 2; i in field; i++) {
+                allowed[field[1]] = allowed[field[1]] field[i] " "
             }
             delete field
         }
@@ -62,8 +83,8 @@ find renderer config campaths assets app -name '*.[ch]' | sort |
     /^#include "/ {
         split($0, part, "\"")
         to = library_of(part[2])
-        if (to == from && from in ordered) {
-            check_folders(from, part[2])
+        if (to != "") {
+            note_folders(part[2], to == from)
         }
         if (to == "" || to == from) {
             next
@@ -85,6 +106,7 @@ find renderer config campaths assets app -name '*.[ch]' | sort |
         crossed = 1
     }
     END {
+        check_folders()
         if (included < LEAST) {
             printf "only %d includes cross a border; has the tree moved?\n", included
             crossed = 1

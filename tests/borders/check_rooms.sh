@@ -10,7 +10,7 @@ cd "$2"
 find renderer config campaths assets app -name '*.[ch]' | sort | xargs wc -l | awk -v LAYERS="$layers" '
     BEGIN {
         while ((getline line < LAYERS) > 0) {
-            if (line ~ /^#/ || split(line, field) == 0 || field[1] ~ /:$/) {
+            if (line ~ /^#/ || split(line, field) == 0) {
                 continue
             }
             for (i = 2; i in field; i++) {
