@@ -58,15 +58,28 @@ typedef struct Widths {
 
 // --- the surface ---------------------------------------------------------------------------------
 
-// Returns the lanes whose surface is seen from the side away from its normal.
+// Returns the product of the view ray with the cross product of its steps along x and y. It is the
+// same for all rays, apart from rounding, which is far smaller.
+VEC_INLINE float turn_of_rays(const DipViewRays *rays) {
+    const float *x = rays->per_x;
+    const float *y = rays->per_y;
+    const float *o = rays->origin;
+    return ((x[1] * y[2] - x[2] * y[1]) * o[0] + (x[2] * y[0] - x[0] * y[2]) * o[1]) +
+           (x[0] * y[1] - x[1] * y[0]) * o[2];
+}
+
+// Returns the lanes whose surface is seen from the side away from its normal. The triangle's normal
+// times the ray is turn_of_rays times the squared depth, so its sign needs no sum that cancels
+// where the eye is close to the triangle's plane. A triangle may be shaded outside of it where its
+// plane meets the ray behind the eye. The depth is negative there, and the triangle's normal points
+// to the other side.
 VEC_INLINE Mask seen_from_behind(const DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
     const DipSurfaceUniforms *uniforms = batch->uniforms;
     const Vf depth = vf_load(batch->varying[uniforms->depth_varying] + i);
-    const Vf3 plane = triangle_normal(batch, i, ray, depth);
+    const Vf side = vf3_dot(triangle_normal(batch, i, ray, depth), normal);
+    const Vf ahead = turn_of_rays(uniforms->rays) < 0.0f ? vf_splat(0.0f) - side : side;
     const Vf zero = vf_splat(0.0f);
-    const Vf side = vf3_dot(plane, normal);
-    const Mask away = vf_lt(zero, vf3_dot(plane, ray));
-    return vf_lt(zero, vf_select(away, side, zero - side));
+    return vf_lt(zero, vf_select(vf_lt(depth, zero), zero - ahead, ahead));
 }
 
 // Finds the normals of a surface, turned to the side from which it is seen.
