@@ -2,6 +2,7 @@
 #include "renderer/catalogue/pictures.h"
 
 #include "renderer/base/srgb.h"
+#include "renderer/reference/internal/differences.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -98,6 +99,10 @@ bool stability_draw_reference(StabilityRun *run, const StabilityShot *shot,
     }
     DipReference *reference = dip_reference_create(shot->def, &err);
     bool drawn = reference && dip_quality_parse(shot->settings, &quality, &err);
+    if (drawn && shot->share_differences) {
+        drawn = dip_reference_share_differences(reference, &err);
+        dip_reference_shift_readings(reference, shot->shift);
+    }
     if (drawn) {
         dip_reference_set_time(reference, shot->time_ns);
         dip_reference_set_frame_index(reference, shot->frame_index);

@@ -20,6 +20,10 @@ typedef struct StabilityShot {
     // the next, so that the picture has a past that moves.
     int frames_before;
     bool force_all; // run all effects, needed or not (DipRendererDef.force_all_effects)
+    // Whether the reference shares documented differences of the fast renderer
+    // (reference/internal/differences.h), and what it then adds to all colours that it reads.
+    bool share_differences;
+    double shift[3];
 } StabilityShot;
 
 // A picture in linear light, width * height * 3 values, top row first. Its owner frees rgb_lin.

@@ -1,4 +1,5 @@
 // Encodes the BC1 blocks of every mip level, and decodes their colours as BC1 is defined.
+#include "renderer/reference/internal/differences.h"
 #include "renderer/reference/internal/texture.h"
 
 #include "renderer/pipeline/bc1.h"
@@ -84,4 +85,7 @@ void dip_reference_compressed_texel(const DipRefTexture *texture, int level, int
     const size_t index = (size_t)(y / 4) * across + (size_t)(x / 4);
     dip_reference_texel(texture, level, x, y, rgba); // keeps the texture's own alpha
     dip_reference_block_colour(texture->blocks[level] + index * DIP_BC1_BYTES, x % 4, y % 4, rgba);
+    if (texture->rounded) {
+        dip_reference_round_colour(rgba);
+    }
 }

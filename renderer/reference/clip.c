@@ -1,5 +1,6 @@
 // Cuts triangles before the division by w (Sutherland and Hodgman, in homogeneous coordinates).
 #include "renderer/reference/internal/clip.h"
+#include "renderer/reference/internal/differences.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,11 +16,13 @@
 
 enum { PLANE_NEAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANE_LEVEL, PLANE_COUNT };
 
-DipRefClipPlanes dip_reference_clip_planes(double near_m, const DipRefShot *shot) {
-    const double guard_px = shot->rounded ? GUARD_ROUNDED_PX : GUARD_EXACT_PX;
+DipRefClipPlanes dip_reference_clip_planes(const DipReference *reference, const DipRefShot *shot) {
+    const double rounded_px = reference->differs ? DIP_REF_FAST_GUARD_PX : GUARD_ROUNDED_PX;
+    const double guard_px = shot->rounded ? rounded_px : GUARD_EXACT_PX;
     const double x = 2.0 * guard_px / shot->width;
     const double y = 2.0 * guard_px / shot->height;
-    return (DipRefClipPlanes){near_m, x + 1.0, x - 1.0, y + 1.0, y - 1.0, shot->mirrored};
+    return (DipRefClipPlanes){reference->def->near_m, x + 1.0, x - 1.0, y + 1.0, y - 1.0,
+                              shot->mirrored};
 }
 
 // Returns the signed, scaled distance of a vertex from a plane. The vertex is inside if the

@@ -1,5 +1,6 @@
 // Draws the picture that the settings define. Coverage is exact and depth is tested per sample.
 // Each patch (a piece of a surface, docs/picture.md) is shaded once per pixel.
+#include "renderer/reference/internal/differences.h"
 #include "renderer/reference/internal/internal.h"
 
 #include "renderer/base/fp_mode.h"
@@ -455,6 +456,9 @@ static double *draw_mirrored(const Drawing *drawing, DipError *err) {
     if (!drawn) {
         free(rgb_lin);
         return NULL;
+    }
+    if (drawing->reference->differs) {
+        dip_reference_round_picture(rgb_lin, mirrored.width * mirrored.height);
     }
     return rgb_lin;
 }

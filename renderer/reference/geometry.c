@@ -51,7 +51,7 @@ static Camera make_camera(const DipReference *reference, const DipRefShot *shot)
         .scale_y = focal,
         .width_px = shot->width,
         .height_px = shot->height,
-        .planes = dip_reference_clip_planes(reference->def->near_m, shot),
+        .planes = dip_reference_clip_planes(reference, shot),
         .rounded = shot->rounded,
         .mirrored = shot->mirrored,
         .level_m = reference->reflection.level_m,

@@ -217,6 +217,9 @@ void dip_reference_sample_slope(const DipRefTexture *texture, const DipRefFilter
     }
     const Reading reading = sample_levels(texture, filter->compressed, level, uv, &footprint);
     memcpy(rgba, reading.rgba, sizeof reading.rgba);
+    for (int c = 0; c < 3; c++) {
+        rgba[c] += texture->shift[c];
+    }
     *slope = fabs(reading.alpha_du * duv_dx[0] + reading.alpha_dv * duv_dx[1]) +
              fabs(reading.alpha_du * duv_dy[0] + reading.alpha_dv * duv_dy[1]);
     if (filter->mip_colours) {

@@ -90,11 +90,9 @@ bool dip_reference_texture_init(DipRefTexture *texture, const DipTextureDef *def
 }
 
 void dip_reference_texture_free(DipRefTexture *texture) {
-    for (int l = 1; l < DIP_REF_MAX_LEVELS; l++) {
+    for (int l = 0; l < DIP_REF_MAX_LEVELS; l++) {
         free(texture->levels[l]);
         texture->levels[l] = NULL;
-    }
-    for (int l = 0; l < DIP_REF_MAX_LEVELS; l++) {
         free(texture->blocks[l]);
         texture->blocks[l] = NULL;
     }

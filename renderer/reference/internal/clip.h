@@ -27,7 +27,7 @@ typedef struct DipRefClipPlanes {
 enum { DIP_REF_MAX_CORNERS = 3 + 6 }; // each plane adds at most one corner
 
 // Returns the planes of a shot.
-DipRefClipPlanes dip_reference_clip_planes(double near_m, const DipRefShot *shot);
+DipRefClipPlanes dip_reference_clip_planes(const DipReference *reference, const DipRefShot *shot);
 
 // Returns false if a triangle clearly lies inside all planes. dip_reference_clip would then change
 // nothing.

@@ -34,6 +34,7 @@ struct DipReference {
     DipRefEnvironment *environment;
     DipRefShadows *shadows; // owned; NULL if the scene can have no shadows
     bool lacks_shadows;     // no memory was left for the shadows of this time
+    bool differs;           // shares differences of the fast renderer (differences.h)
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with

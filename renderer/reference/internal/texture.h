@@ -12,16 +12,18 @@
 
 enum { DIP_REF_MAX_LEVELS = 14 }; // levels of 8192 texels down to 1
 
-// A mip chain. Level 0 stays in the description's bytes and is decoded when it is read. The other
-// levels hold means of decoded texels.
+// A mip chain. Level 0 stays in the description's bytes and is decoded when it is read, unless the
+// texels are rounded (differences.h). The other levels hold means of decoded texels.
 typedef struct DipRefTexture {
     const DipTextureDef *def;            // borrowed
     double decode[256];                  // linear light of each colour byte
-    double *levels[DIP_REF_MAX_LEVELS];  // r, g, b, a of each texel; levels[0] is NULL
+    double *levels[DIP_REF_MAX_LEVELS];  // r, g, b, a of each texel; levels[0] may be NULL
     uint8_t *blocks[DIP_REF_MAX_LEVELS]; // BC1 blocks, row by row; NULL if not compressed
     int widths[DIP_REF_MAX_LEVELS];      // in texels
     int heights[DIP_REF_MAX_LEVELS];
     int level_count;
+    bool rounded;    // texels are rounded as the fast renderer's (differences.h)
+    double shift[3]; // is added to the colour of every reading
 } DipRefTexture;
 
 // How a texture is filtered. docs/picture.md, "Textures", explains the settings.
@@ -49,7 +51,7 @@ void dip_reference_texture_free(DipRefTexture *texture);
 static inline void dip_reference_texel(const DipRefTexture *texture, int level, int x, int y,
                                        double rgba[4]) {
     const size_t index = 4 * ((size_t)y * (size_t)texture->widths[level] + (size_t)x);
-    if (level > 0) {
+    if (texture->levels[level]) {
         memcpy(rgba, texture->levels[level] + index, 4 * sizeof *rgba);
         return;
     }

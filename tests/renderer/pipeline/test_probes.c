@@ -3,6 +3,7 @@
 // of every instruction set with closed forms and with the reference in double precision.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/texture/texture_layout.h"
+#include "renderer/reference/internal/differences.h"
 #include "renderer/reference/internal/texture.h"
 #include "renderer/catalogue/random.h"
 
@@ -224,6 +225,50 @@ static void noise_is_read_as_the_reference_reads_it(void **state) {
     }
 }
 
+// With the same rounded texels, a read differs from the reference by what the filter rounds off, as
+// judges that compare with such a reference allow. Footprints lie where neither a position nor a
+// level of detail is near a tie.
+static void rounded_texels_leave_the_rounding_of_the_filter(void **state) {
+    (void)state;
+    Random random = {13};
+    for (int i = 0; i < 4 * SIZE * SIZE; i++) {
+        texels[i] = i < 2 * SIZE * SIZE ? (uint8_t)random_u64(&random) : 255;
+    }
+    open_bench(DIP_WRAP_REPEAT);
+    assert_true(dip_reference_round_texture(&bench.reference, NULL));
+    FOR_EACH_ISA(kernels) {
+        double worst[3] = {0.0};
+        for (int round = 0; round < 200; round++) {
+            for (int i = 0; i < LANES; i++) {
+                const double size = exp2((random_int(&random, -128, 640) + 0.25) / 256.0);
+                place(i, (4 * random_int(&random, 0, 65535) + 1) / 1024.0,
+                      (4 * random_int(&random, 0, 65535) + 1) / 1024.0, size, size, 0.0);
+            }
+            const DipSampler sampler = {.texture = bench.fast,
+                                        .max_anisotropy = round % 2 ? 16 : 1,
+                                        .exact_footprint = true};
+            bench.batch.count = LANES;
+            kernels->dip_kernel_sample_colour(&bench.batch, &sampler, 0, bench.colour);
+            const DipRefFilter filter = {.max_anisotropy = sampler.max_anisotropy,
+                                         .exact_footprint = true};
+            for (int i = 0; i < LANES; i++) {
+                const double uv[2] = {bench.batch.varying[0][i], bench.batch.varying[1][i]};
+                const double dx[2] = {bench.batch.varying_dx[0][i], bench.batch.varying_dx[1][i]};
+                const double dy[2] = {bench.batch.varying_dy[0][i], bench.batch.varying_dy[1][i]};
+                double rgba[4];
+                dip_reference_sample(&bench.reference, &filter, uv, dx, dy, rgba);
+                for (int c = 0; c < 3; c++) {
+                    worst[c] = fmax(worst[c], fabs(bench.colour[c][i] - rgba[c]));
+                }
+            }
+        }
+        for (int c = 0; c < 3; c++) {
+            assert_near(worst[c], 0.0, DIP_REF_MOST_SHIFT);
+        }
+    }
+    close_bench();
+}
+
 // The smallest level (one texel) is read through a footprint of 16 times 256 texels of the largest
 // level, so every lane takes 16 probes. A least level of detail beyond the chain means the smallest
 // level, so it must not change that number.
@@ -254,6 +299,7 @@ int main(void) {
         cmocka_unit_test(a_footprint_of_one_period_reads_the_mean_of_stripes),
         cmocka_unit_test(the_coarser_level_takes_fewer_probes),
         cmocka_unit_test(noise_is_read_as_the_reference_reads_it),
+        cmocka_unit_test(rounded_texels_leave_the_rounding_of_the_filter),
         cmocka_unit_test(a_least_level_beyond_the_chain_is_the_smallest_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

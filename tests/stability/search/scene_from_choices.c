@@ -180,5 +180,7 @@ StabilityShot search_scene_shot(const SearchScene *made) {
         .height = made->height,
         .time_ns = made->time_ns,
         .frame_index = made->frame_index,
+        .share_differences = true,
+        .shift = {made->shift[0], made->shift[1], made->shift[2]},
     };
 }

@@ -18,6 +18,7 @@ typedef struct SearchScene {
     int height;         // pixels
     int64_t time_ns;
     uint64_t frame_index;
+    double shift[3]; // what the reference adds to the colours that it reads from textures
     const char *shape_names[DIP_TEST_SCENE_PARTS]; // kinds of the meshes
 } SearchScene;
 

@@ -1,6 +1,8 @@
 // Changes scenes by as little as rounding may change them.
 #include "tests/stability/search/shake.h"
 
+#include "renderer/reference/internal/differences.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,6 +45,7 @@ void search_restore_original(SearchScene *made, const SearchOriginal *original) 
                sizeof original->transforms[i]);
     }
     made->scene.pose = original->pose;
+    memset(made->shift, 0, sizeof made->shift);
 }
 
 void search_free_original(SearchOriginal *original) {
@@ -216,6 +219,9 @@ void search_shake(SearchScene *made, uint64_t seed) {
     }
     shake_camera(made, &random);
     shift_camera(made, &random);
+    for (int c = 0; c < 3; c++) {
+        made->shift[c] = random_real(&random, -DIP_REF_MOST_SHIFT, DIP_REF_MOST_SHIFT);
+    }
 }
 
 bool search_is_beyond_precision(const SearchScene *made) {

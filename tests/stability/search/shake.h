@@ -18,8 +18,9 @@ void search_keep_original(const SearchScene *made, SearchOriginal *original);
 void search_restore_original(SearchScene *made, const SearchOriginal *original);
 void search_free_original(SearchOriginal *original);
 
-// Moves the vertices, the camera and the alpha cutoffs a little, and moves objects that may be
-// coplanar a little towards the eye or away from it. Each seed gives other changes.
+// Moves the vertices, the camera and the alpha cutoffs a little, moves objects that may be coplanar
+// a little towards the eye or away from it, and shifts what is read from textures by as much as
+// the fast renderer's filter rounds. Each seed gives other changes.
 void search_shake(SearchScene *made, uint64_t seed);
 
 // Returns true if a vertex is so close to the eye that the error allowed for its position is not

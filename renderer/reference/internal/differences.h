@@ -1,0 +1,37 @@
+// Private to the reference renderer and to judges that search for faults: differences from
+// docs/picture.md that the fast renderer is allowed ("Where the fast path may differ") and that a
+// reference can share. The judge then needs no tolerance for them.
+#ifndef DIP_RENDERER_REFERENCE_INTERNAL_DIFFERENCES_H
+#define DIP_RENDERER_REFERENCE_INTERNAL_DIFFERENCES_H
+
+#include "renderer/reference/internal/texture.h"
+#include "renderer/reference/reference.h"
+
+// Distance of the fast renderer's guard band from the picture's top left corner, in pixels.
+#define DIP_REF_FAST_GUARD_PX 16000.0
+
+// Makes a reference share these differences:
+// - Texels, also those of compressed textures, are square roots of linear light with 11 bits for
+//   red and green and 10 bits for blue. Alpha has 8 bits in every level.
+// - The mirrored picture has 8-bit sRGB codes.
+// - The guard band lies DIP_REF_FAST_GUARD_PX from the picture's top left corner.
+// Fails with MEMORY.
+bool dip_reference_share_differences(DipReference *reference, DipError *err);
+
+// Adds a number to each channel of every colour that is read from a texture. The fast renderer's
+// filter, whose weights and light have 16 bits, may add numbers within DIP_REF_MOST_SHIFT: it rounds
+// down up to 8 products of a texel and a weight, and before that the squares and the weights, and
+// divides by slightly less than 65536 to make up for half of it.
+#define DIP_REF_MOST_SHIFT (10.0 / 65536.0)
+void dip_reference_shift_readings(DipReference *reference, const double shift[3]);
+
+// Rounds the texels of a texture, as above. Fails with MEMORY.
+bool dip_reference_round_texture(DipRefTexture *texture, DipError *err);
+
+// Rounds a colour in linear light as a texel's colour is rounded.
+void dip_reference_round_colour(double rgb_lin[3]);
+
+// Rounds the pixels of a picture in linear light to 8-bit sRGB codes.
+void dip_reference_round_picture(double *rgb_lin, int pixel_count);
+
+#endif
