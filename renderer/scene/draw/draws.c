@@ -271,6 +271,11 @@ static DipFragmentShader *clip_shader(const DipDrawInput *input) {
                                                        : input->kernels->dip_kernel_surface_clip;
 }
 
+// A sky is nowhere near the eye, so floats are exact enough where it is cut, unless it reaches
+// farther than this many times the distance of the near plane: there, the steps of floats are as
+// long as this distance.
+#define SKY_FAR_RATIO 0x1p24f
+
 static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
                      DipDrawSet *set) {
     const DipSceneObject *object = &input->scene->objects[index];
@@ -304,15 +309,14 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
         .bounds_to_clip = set->matrices[set->count - 1].bounds_to_clip,
-        // A sky is nowhere near the eye, so floats are exact enough for it.
-        .exact_to_clip = material->surface == DIP_SURFACE_SKY
-                             ? NULL
-                             : &set->matrices[set->count - 1].exact_to_clip,
+        .exact_to_clip = &set->matrices[set->count - 1].exact_to_clip,
         .cull = cull_of(material, object, pass->mirrored),
         // Sample groups shift the level of detail.
         .own_shading = material->surface == DIP_SURFACE_CLIPPED &&
                        dip_quality_groups_bias_lod8(input->quality) != 0,
     };
+    set->matrices[set->count - 1].exact_to_clip.far_ratio =
+        material->surface == DIP_SURFACE_SKY ? SKY_FAR_RATIO : 0.0f;
     uniforms->rays = &set->rays;
     uniforms->lighting = &set->lighting;
     uniforms->lights = UINT64_MAX;

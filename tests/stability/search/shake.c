@@ -137,7 +137,7 @@ static bool is_sky(const SearchScene *made, const DipMeshDef *mesh) {
 }
 
 // Returns true if an object has the same vertices as the object before it, and the renderer
-// computes them alike: those of a sky that are cut at the near plane are computed in floats only.
+// computes them alike: a sky has to reach farther than other surfaces before it is cut in doubles.
 static bool has_same_vertices(const SearchScene *made, int index) {
     const DipObjectDef *object = &made->scene.objects[index];
     const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
