@@ -49,6 +49,16 @@ VEC_INLINE Vi any_address(Vf coordinate, DipWrap wrap, Vi size) {
     return wrap == DIP_WRAP_REPEAT ? at + (before & (size << 8)) : at & ~before;
 }
 
+// Returns the lanes whose position lies before the centre of the first texel, on an axis that reads
+// this texel alone there: one that neither repeats nor has a border. `address` returns the centre.
+VEC_INLINE Mask reads_first_alone(Vf coordinate, DipWrap wrap, Vi size) {
+    if (wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_BORDER) {
+        return mask_from_bits(0);
+    }
+    const Vf scale = vf_from_int(size << 8);
+    return vi_lt(vi_from_float(fold(coordinate, wrap) * scale), vi_splat(128));
+}
+
 // Returns the position of the nearest texel. Without a border, texel `size` has no row below it.
 VEC_INLINE Vi nearest_address(Vf coordinate, DipWrap wrap, Vi size) {
     const Vf scale = vf_from_int(size << 8);

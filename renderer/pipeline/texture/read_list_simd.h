@@ -23,6 +23,7 @@ typedef struct ReadMode {
     bool in_bits;
     bool any_wrap; // all address modes, in floats; otherwise only repeat and clamp
     bool nearest;  // the nearest texel, in floats, with all address modes
+    bool marks;    // mark the positions beyond which nothing changes (ReadList)
 } ReadMode;
 
 // The probes of a batch's footprints in one of their two levels. Only anisotropic reads use this.
@@ -188,6 +189,7 @@ typedef struct Taps {
     Vi index;
     Vi x8;
     Vi y8;
+    Vi marks; // as in ReadList.between; without meaning unless the mode marks positions
 } Taps;
 
 // Returns the distance between rows of a level of the given width.
@@ -246,10 +248,14 @@ VEC_INLINE void next_probe(Walk *walk, ReadMode mode) {
     }
 }
 
+// Marks in the list of reads: along this axis, all positions around read the same texel.
+enum { FLAT_X = 1 << 8, FLAT_Y = 1 << 16 };
+
 // Returns the bilinear read at the walk's current position.
 VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *walk) {
     const Level *level = &walk->level;
     Taps taps;
+    taps.marks = vi_splat(0);
     if (mode.in_bits) {
         taps.x8 = (Vi)(walk->u >> (Vu)(24 - level->width));
         taps.y8 = (Vi)(walk->v >> (Vu)(24 - level->height));
@@ -270,6 +276,12 @@ VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *
             taps.y8 = address(v, texture->wrap_v, level->height);
         }
         taps.index = (level->offset + (taps.x8 >> 8)) + (taps.y8 >> 8) * level->stride;
+        if (mode.marks) {
+            const Mask x = reads_first_alone(u, texture->wrap_u, level->width);
+            const Mask y = reads_first_alone(v, texture->wrap_v, level->height);
+            taps.marks = vi_select(x, vi_splat(FLAT_X), vi_splat(0)) |
+                         vi_select(y, vi_splat(FLAT_Y), vi_splat(0));
+        }
     }
     return taps;
 }
@@ -294,6 +306,7 @@ typedef struct ReadList {
     int far[VECTORS];
     int32_t index[VECTORS * MOST_READS][DIP_LANES]; // the quads
     // Positions between the texels in 1/256 texel: x in the lowest 8 bits, y in the highest 8 bits.
+    // In between are FLAT_X and FLAT_Y, if the mode marks positions.
     int32_t between[VECTORS * MOST_READS][DIP_LANES];
 } ReadList;
 
@@ -314,7 +327,8 @@ VEC_INLINE int list_level(ReadList *list, int first, const DipTexture *texture, 
         } else {
             vi_store(list->index[i], taps.index);
         }
-        vi_store(list->between[i], (taps.x8 & 255) | (Vi)((Vu)taps.y8 << 24));
+        const Vi between = (taps.x8 & 255) | (Vi)((Vu)taps.y8 << 24);
+        vi_store(list->between[i], mode.marks ? between | taps.marks : between);
         next_probe(&walk, mode);
     }
     return walk.count;
@@ -339,19 +353,20 @@ VEC_INLINE int list_vector(ReadList *list, int first, const DipTexture *texture,
     do {                                                                                           \
         const bool anisotropic = sampler->max_anisotropy > 1;                                      \
         if (sampler->filter == DIP_FILTER_POINT) {                                                 \
-            sample(batch, sampler, (ReadMode){false, false, false, true}, __VA_ARGS__);            \
+            sample(batch, sampler, (ReadMode){.nearest = true}, __VA_ARGS__);                      \
         } else if ((from)->special_wrap && anisotropic) {                                          \
-            sample(batch, sampler, (ReadMode){true, false, true, false}, __VA_ARGS__);             \
+            sample(batch, sampler, (ReadMode){.anisotropic = true, .any_wrap = true},              \
+                   __VA_ARGS__);                                                                   \
         } else if ((from)->special_wrap) {                                                         \
-            sample(batch, sampler, (ReadMode){false, false, true, false}, __VA_ARGS__);            \
+            sample(batch, sampler, (ReadMode){.any_wrap = true}, __VA_ARGS__);                     \
         } else if (anisotropic && (from)->wraps_in_bits) {                                         \
-            sample(batch, sampler, (ReadMode){true, true, false, false}, __VA_ARGS__);             \
+            sample(batch, sampler, (ReadMode){.anisotropic = true, .in_bits = true}, __VA_ARGS__); \
         } else if (anisotropic) {                                                                  \
-            sample(batch, sampler, (ReadMode){true, false, false, false}, __VA_ARGS__);            \
+            sample(batch, sampler, (ReadMode){.anisotropic = true}, __VA_ARGS__);                  \
         } else if ((from)->wraps_in_bits) {                                                        \
-            sample(batch, sampler, (ReadMode){false, true, false, false}, __VA_ARGS__);            \
+            sample(batch, sampler, (ReadMode){.in_bits = true}, __VA_ARGS__);                      \
         } else {                                                                                   \
-            sample(batch, sampler, (ReadMode){false, false, false, false}, __VA_ARGS__);           \
+            sample(batch, sampler, (ReadMode){.nearest = false}, __VA_ARGS__);                     \
         }                                                                                          \
     } while (false)
 

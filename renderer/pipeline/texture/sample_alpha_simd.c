@@ -25,8 +25,11 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const ReadList *list, in
         const Vf a = vf_from_int(quad & 255), b = vf_from_int(quad >> 16 & 255);
         const Vf c = vf_from_int(quad >> 8 & 255), d = vf_from_int((Vi)((Vu)quad >> 24));
         const Vf right = vf_from_int(x);
-        change->u = ((b - a) * (256.0f - down) + (d - c) * down) * 256.0f;
-        change->v = ((c - a) * (256.0f - right) + (d - b) * right) * 256.0f;
+        const Vf none = vf_splat(0.0f);
+        const Vf along_u = ((b - a) * (256.0f - down) + (d - c) * down) * 256.0f;
+        const Vf along_v = ((c - a) * (256.0f - right) + (d - b) * right) * 256.0f;
+        change->u = vf_select(vi_lt(vi_splat(0), between & FLAT_X), none, along_u);
+        change->v = vf_select(vi_lt(vi_splat(0), between & FLAT_Y), none, along_v);
     }
     return upper * (256.0f - down) + lower * down;
 }
@@ -93,6 +96,7 @@ VEC_INLINE Vf slope_of(const DipFragmentBatch *batch, const DipTexture *texture,
 // slope: NULL, or receives how fast alpha changes from pixel to pixel (DipSampleAlphaSlope).
 VEC_INLINE void sample_alpha(DipFragmentBatch *batch, const DipSampler *sampler, ReadMode mode,
                              int u_varying, float *out, float *slope) {
+    mode.marks = slope != NULL;
     const DipTexture *texture = sampler->texture;
     const int vectors = (batch->count + DIP_LANES - 1) / DIP_LANES;
     Footprints footprints;
