@@ -58,28 +58,31 @@ typedef struct Widths {
 
 // --- the surface ---------------------------------------------------------------------------------
 
-// Returns the product of the view ray with the cross product of its steps along x and y. It is the
-// same for all rays, apart from rounding, which is far smaller.
-VEC_INLINE float turn_of_rays(const DipViewRays *rays) {
-    const float *x = rays->per_x;
-    const float *y = rays->per_y;
-    const float *o = rays->origin;
-    return ((x[1] * y[2] - x[2] * y[1]) * o[0] + (x[2] * y[0] - x[0] * y[2]) * o[1]) +
-           (x[0] * y[1] - x[1] * y[0]) * o[2];
+// Returns a normal of the triangle at a fragment, of any length, that points away from the eye.
+// With the steps x and y of the view ray along x and y, the depth w, and det = x * cross(y, ray),
+// which is the same for all rays, this normal is
+//     (w cross(x, y) + dw/dy cross(x, ray) + dw/dx cross(ray, y)) / (det w^2).
+// No sum in it cancels where the eye is close to the triangle's plane. It is also right where a
+// triangle is shaded outside of it, at a ray that its plane meets behind the eye: w < 0 there.
+VEC_INLINE Vf3 normal_from_eye(const DipFragmentBatch *batch, int i, Vf3 ray) {
+    const DipSurfaceUniforms *uniforms = batch->uniforms;
+    const DipViewRays *rays = uniforms->rays;
+    const int w = uniforms->depth_varying;
+    const Vf depth = vf_load(batch->varying[w] + i);
+    const Vf dx = vf_load(batch->varying_dx[w] + i);
+    const Vf dy = vf_load(batch->varying_dy[w] + i);
+    const Vf3 x = {vf_splat(rays->per_x[0]), vf_splat(rays->per_x[1]), vf_splat(rays->per_x[2])};
+    const Vf3 y = {vf_splat(rays->per_y[0]), vf_splat(rays->per_y[1]), vf_splat(rays->per_y[2])};
+    const Vf3 ahead = cross(x, y);
+    const Vf3 sum = vf3_sum(vf3_scale(ahead, depth),
+                            vf3_sum(vf3_scale(cross(x, ray), dy), vf3_scale(cross(ray, y), dx)));
+    const Mask turned = vf_lt(vf3_dot(ahead, ray), vf_splat(0.0f));
+    return vf3_scale(sum, vf_select(turned, vf_splat(-1.0f), vf_splat(1.0f)));
 }
 
-// Returns the lanes whose surface is seen from the side away from its normal. The triangle's normal
-// times the ray is turn_of_rays times the squared depth, so its sign needs no sum that cancels
-// where the eye is close to the triangle's plane. A triangle may be shaded outside of it where its
-// plane meets the ray behind the eye. The depth is negative there, and the triangle's normal points
-// to the other side.
+// Returns the lanes whose surface is seen from the side away from its normal.
 VEC_INLINE Mask seen_from_behind(const DipFragmentBatch *batch, int i, Vf3 ray, Vf3 normal) {
-    const DipSurfaceUniforms *uniforms = batch->uniforms;
-    const Vf depth = vf_load(batch->varying[uniforms->depth_varying] + i);
-    const Vf side = vf3_dot(triangle_normal(batch, i, ray, depth), normal);
-    const Vf ahead = turn_of_rays(uniforms->rays) < 0.0f ? vf_splat(0.0f) - side : side;
-    const Vf zero = vf_splat(0.0f);
-    return vf_lt(zero, vf_select(vf_lt(depth, zero), zero - ahead, ahead));
+    return vf_lt(vf_splat(0.0f), vf3_dot(normal_from_eye(batch, i, ray), normal));
 }
 
 // Finds the normals of a surface, turned to the side from which it is seen.
