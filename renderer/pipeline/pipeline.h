@@ -39,9 +39,8 @@ typedef enum DipCull { DIP_CULL_NONE, DIP_CULL_BACK, DIP_CULL_FRONT } DipCull;
 typedef struct DipExactTransform {
     double to_clip[16];
     float origin[3];
-    // Corners are far away if a clip coordinate has a greater magnitude than this many times the
-    // distance of the near plane. 0: the pipeline decides.
-    float far_ratio;
+    // Corners are far away if a clip coordinate has a greater magnitude. 0: the pipeline decides.
+    float far_coordinate;
 } DipExactTransform;
 
 // A draw: one mesh with its shaders. Everything that its pointers refer to is borrowed for the call

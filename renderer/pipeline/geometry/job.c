@@ -196,8 +196,8 @@ static void load_position(const JobRun *run, uint8_t v, DipClipVertex *vertex) {
     const float near_clip = run->scratch->clip[2][v]; // the same for all vertices
     const float by_near = DIP_FAR_RATIO * near_clip;
     float far_coordinate = by_near < DIP_FAR_COORDINATE ? by_near : DIP_FAR_COORDINATE;
-    if (exact && exact->far_ratio > 0.0f) {
-        far_coordinate = exact->far_ratio * near_clip;
+    if (exact && exact->far_coordinate > 0.0f) {
+        far_coordinate = exact->far_coordinate;
     }
     vertex->far = false;
     for (int c = 0; c < 4; c++) {

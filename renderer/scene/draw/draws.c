@@ -272,9 +272,8 @@ static DipFragmentShader *clip_shader(const DipDrawInput *input) {
 }
 
 // A sky is nowhere near the eye, so floats are exact enough where it is cut, unless it reaches
-// farther than this many times the distance of the near plane: there, the steps of floats are as
-// long as this distance.
-#define SKY_FAR_RATIO 0x1p24f
+// farther than this, in metres: the steps of floats are a quarter of a metre there.
+#define SKY_FAR_COORDINATE 0x1p21f
 
 static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
                      DipDrawSet *set) {
@@ -315,8 +314,8 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .own_shading = material->surface == DIP_SURFACE_CLIPPED &&
                        dip_quality_groups_bias_lod8(input->quality) != 0,
     };
-    set->matrices[set->count - 1].exact_to_clip.far_ratio =
-        material->surface == DIP_SURFACE_SKY ? SKY_FAR_RATIO : 0.0f;
+    set->matrices[set->count - 1].exact_to_clip.far_coordinate =
+        material->surface == DIP_SURFACE_SKY ? SKY_FAR_COORDINATE : 0.0f;
     uniforms->rays = &set->rays;
     uniforms->lighting = &set->lighting;
     uniforms->lights = UINT64_MAX;

@@ -82,7 +82,7 @@ static void add_caster(DipShadows *shadows, const DipScene *scene,
     DipSurfaceUniforms *uniforms = &set->uniforms[set->count];
     DipDrawMatrices *matrices = &set->matrices[set->count];
     DipExactTransform *exact = &matrices->exact_to_clip;
-    exact->far_ratio = 0.0f;
+    exact->far_coordinate = 0.0f;
     double bounds_to_clip[16];
     dip_view_object_origin(camera->eye, object->transform, object->world_to_object, exact->origin);
     dip_object_to_clip(camera->to_clip, camera->eye, camera->at_eye, object->transform,
