@@ -272,8 +272,8 @@ static DipFragmentShader *clip_shader(const DipDrawInput *input) {
 }
 
 // A sky is nowhere near the eye, so floats are exact enough where it is cut, unless it reaches
-// farther than this, in metres: the steps of floats are a quarter of a metre there.
-#define SKY_FAR_COORDINATE 0x1p21f
+// farther than this, in metres: the steps of floats are 1/16 m there.
+#define SKY_FAR_COORDINATE 0x1p19f
 
 static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
                      DipDrawSet *set) {
