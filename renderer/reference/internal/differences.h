@@ -19,9 +19,9 @@
 bool dip_reference_share_differences(DipReference *reference, DipError *err);
 
 // Adds a number to each channel of every colour that is read from a texture. The fast renderer's
-// filter, whose weights and light have 16 bits, may add numbers within DIP_REF_MOST_SHIFT: it rounds
-// down up to 8 products of a texel and a weight, and before that the squares and the weights, and
-// divides by slightly less than 65536 to make up for half of it.
+// filter, whose weights and light have 16 bits, may add numbers within DIP_REF_MOST_SHIFT: it
+// rounds down up to 8 products of a texel and a weight, and before that the squares and the
+// weights, and divides by slightly less than 65536 to make up for half of it.
 #define DIP_REF_MOST_SHIFT (10.0 / 65536.0)
 void dip_reference_shift_readings(DipReference *reference, const double shift[3]);
 
