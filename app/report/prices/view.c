@@ -60,6 +60,18 @@ static void add(DipPriceView *view, const DipQuality *quality, int path, int row
     view->count++;
 }
 
+// Returns whether the report's tables show another row of the same settings instead of this one.
+// The baseline's settings are timed once more as a combination; where no sweep has the baseline's
+// row, the tables show only this combination. The A/A row is in no table of settings.
+static bool has_stand_in(const DipCostReport *report, int row) {
+    const int first = report->combined_first;
+    bool is_shown = row >= first || (row != report->base_rows[0] && row != report->same_rows[0]);
+    for (int s = 0; s < report->sweep_count && !is_shown; s++) {
+        is_shown = report->sweeps[s].base == row;
+    }
+    return !is_shown && dip_report_find(report, &report->rows[row].quality, 0, first) >= 0;
+}
+
 bool dip_price_view_update(DipPriceView *view, DipError *err) {
     const DipCostReport *report = view->report;
     const DipCostPredictions *predicted = &report->predicted;
@@ -73,7 +85,9 @@ bool dip_price_view_update(DipPriceView *view, DipError *err) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "prices", "out of memory");
     }
     for (int r = 0; r < report->row_count; r++) {
-        add(view, &report->rows[r].quality, report->rows[r].path, r, -1);
+        if (!has_stand_in(report, r)) {
+            add(view, &report->rows[r].quality, report->rows[r].path, r, -1);
+        }
     }
     for (int i = 0; i < report->same_count; i++) {
         add(view, &report->same[i].quality, 0, report->same[i].row, -1);

@@ -297,6 +297,50 @@ static void next_better_is_one(void **state) {
     assert_true(!are_stored || (advised >= 6 && better >= 3));
 }
 
+// Expects that the window prices the steps of a sweep with the two rows of the report's table.
+static int expect_prices(const DipCostReport *report, const DipPrices *prices,
+                         const DipCostSweep *sweep) {
+    const DipQuality *base = &report->rows[sweep->base].quality;
+    const double base_ms = dip_cost_ms(report, sweep->base);
+    int steps = 0;
+    if (sweep->path == 0 && dip_quality_count_changes(base) == 0) {
+        assert_true(dip_prices_sum(prices, base).ms == base_ms);
+        for (int i = 0; i < sweep->row_count; i++) {
+            const int row = sweep->rows[i];
+            if (row != sweep->base && dip_cost_is_timed(report, row)) {
+                const int step = report->rows[row].quality.step[sweep->setting];
+                const DipPrice price = dip_prices_step(prices, sweep->setting, step, base);
+                assert_true(price.ms == dip_cost_ms(report, row) - base_ms);
+                steps++;
+            }
+        }
+    }
+    return steps;
+}
+
+// The window has the times of the report's tables. The baseline's settings are timed more than
+// once: as the row beside which all others are timed, as the A/A row, and as a combination.
+static void times_are_those_of_the_tables(void **state) {
+    (void)state;
+    for (int i = 0; i < report_count; i++) {
+        DipCostReport report;
+        Window window;
+        int steps = 0;
+        read(i, &report);
+        open_window(&window, &report);
+        for (int s = 0; s < report.sweep_count; s++) {
+            steps += expect_prices(&report, window.prices, &report.sweeps[s]);
+        }
+        assert_true(report.sweep_count == 0 || steps > 0);
+        for (int r = report.combined_first; r < report.row_count && report.sweep_count == 0; r++) {
+            const DipPriceSum sum = dip_prices_sum(window.prices, &report.rows[r].quality);
+            assert_true(fabs(sum.ms - dip_cost_ms(&report, r)) < 1e-9);
+        }
+        close_window(&window);
+        dip_cost_report_free(&report);
+    }
+}
+
 static void expect_width(DipEstimate e) {
     if (isnan(e.low) || isnan(e.high)) {
         assert_true(isnan(e.low) && isnan(e.high) && isnan(e.log_error));
@@ -499,6 +543,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(fronts_agree),
         cmocka_unit_test(lists_are_equal_in_all_forms),
         cmocka_unit_test(next_better_is_one),
+        cmocka_unit_test(times_are_those_of_the_tables),
         cmocka_unit_test(estimates_have_width_or_no_ends),
         cmocka_unit_test(red_report_advises_nothing_anywhere),
         cmocka_unit_test(advice_of_a_live_report_is_dip_advise),
@@ -510,6 +555,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(fronts_agree),
         cmocka_unit_test(lists_are_equal_in_all_forms),
         cmocka_unit_test(next_better_is_one),
+        cmocka_unit_test(times_are_those_of_the_tables),
         cmocka_unit_test(estimates_have_width_or_no_ends),
         cmocka_unit_test(red_report_advises_nothing_anywhere),
     };
