@@ -71,7 +71,7 @@ static bool follows(Trend trend, double before, double after, bool strictly) {
 static double error_of(const DipCostReport *report, const Theory *theory, int row, bool *judged) {
     int viewpoints;
     const DipMetricSums sums = dip_cost_row_sums(report, row, &viewpoints);
-    *judged = *judged && viewpoints > 0;
+    *judged = *judged && viewpoints > 0 && (!theory->of_two_frames || dip_cost_has_flicker(report));
     return theory->of_two_frames ? dip_flicker_metrics_of(&sums).two_mean
                                  : dip_metrics_of(&sums, 0).flip;
 }

@@ -249,6 +249,12 @@ int dip_report_find(const DipCostReport *report, const DipQuality *quality, int 
 // the row that stands for them because it draws the same pictures (report->same), or -1.
 int dip_report_find_same(const DipCostReport *report, const DipQuality *quality, int first);
 
+// Returns whether several successive frames were judged at each viewpoint (--burst). One frame does
+// not tell how errors change over time.
+static inline bool dip_cost_has_flicker(const DipCostReport *report) {
+    return report->options.burst > 1;
+}
+
 // Returns the number of all combinations that were predicted; 0 if none were.
 static inline int dip_cost_searched(const DipCostReport *report) {
     const DipCostPredictions *predicted = &report->predicted;

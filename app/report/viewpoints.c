@@ -11,8 +11,10 @@ static bool is_of_squares(DipCostMetric metric) {
     return metric == DIP_COST_RMSE || metric == DIP_COST_PSNR || metric == DIP_COST_FLICKER;
 }
 
-// Returns the mean that a metric is computed from: a mean of squares, or the metric itself.
-static double mean_of(const DipMetricSums *sums, DipCostMetric metric) {
+// Returns the mean that a metric is computed from: a mean of squares, or the metric itself. Returns
+// NAN for flicker that was not measured.
+static double mean_of(const DipCostReport *report, const DipMetricSums *sums,
+                      DipCostMetric metric) {
     const DipMetricRegionSums *all = &sums->regions[0];
     switch (metric) {
     case DIP_COST_RMSE:
@@ -20,7 +22,9 @@ static double mean_of(const DipMetricSums *sums, DipCostMetric metric) {
     case DIP_COST_PSNR:
         return all->pixels > 0.0 ? all->squared_codes / all->pixels : 0.0;
     case DIP_COST_FLICKER:
-        return sums->bursts > 0.0 ? sums->squared_flicker / sums->bursts : 0.0;
+        return !dip_cost_has_flicker(report) ? NAN
+               : sums->bursts > 0.0          ? sums->squared_flicker / sums->bursts
+                                             : 0.0;
     case DIP_COST_SSIM:
         return dip_metrics_of(sums, 0).ssim;
     default:
@@ -79,7 +83,7 @@ DipEstimate dip_cost_metric(const DipCostReport *report, int row, DipCostMetric 
     int count = 0;
     for (int p = 0; p < report->options.places; p++) {
         if (r->judged[p]) {
-            means[count++] = mean_of(&r->viewpoints[p], metric);
+            means[count++] = mean_of(report, &r->viewpoints[p], metric);
         }
     }
     const Spread s = spread_of(means, count);
@@ -104,8 +108,8 @@ DipEstimate dip_cost_metric_change(const DipCostReport *report, int row, int bas
     int count = 0;
     for (int p = 0; p < report->options.places; p++) {
         if (r->judged[p] && b->judged[p]) {
-            changes[count++] = metric_of(mean_of(&r->viewpoints[p], metric), metric) -
-                               metric_of(mean_of(&b->viewpoints[p], metric), metric);
+            changes[count++] = metric_of(mean_of(report, &r->viewpoints[p], metric), metric) -
+                               metric_of(mean_of(report, &b->viewpoints[p], metric), metric);
         }
     }
     const Spread s = spread_of(changes, count);

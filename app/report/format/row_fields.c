@@ -121,7 +121,9 @@ static const DipRecord over_time_record =
 
 static const void *derive_over_time(const DipFieldAt *at, DipFieldScratch *scratch) {
     DipMetricSums sums;
-    return sums_of(at, &sums) ? DIP_MADE(DipFlickerMetrics, dip_flicker_metrics_of(&sums)) : NULL;
+    return dip_cost_has_flicker(dip_cost_report_of(at)) && sums_of(at, &sums)
+               ? DIP_MADE(DipFlickerMetrics, dip_flicker_metrics_of(&sums))
+               : NULL;
 }
 
 // Defines for each metric a function that derives a row's metric, with its interval over the
@@ -292,7 +294,8 @@ static const DipField row_fields[] = {
               .open = open_places, .put = put_viewpoint)},
     {"figures", NULL, NULL, "Metrics of each class of pixels, over all judged viewpoints.",
      DIP_DERIVED(RECORD, derive_figures), .record = &figures_record},
-    {"over_time", NULL, NULL, "How the error changes from frame to frame in the bursts.",
+    {"over_time", NULL, NULL,
+     "How the error changes from frame to frame in the bursts; null for bursts of one frame.",
      DIP_DERIVED(RECORD, derive_over_time), .record = &over_time_record},
     METRIC_LIST(OF_VIEWPOINTS){"flip_tail", NULL, NULL, "How FLIP is distributed over the pixels.",
                                DIP_DERIVED(RECORD, derive_tail), .record = &tail_record},

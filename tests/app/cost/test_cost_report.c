@@ -101,8 +101,13 @@ static void steps_out_of_order_are_named(void **state) {
     expect_order(&report, "at step \"2\", FLIP should fall but does not.");
     report.sweeps[0].setting = DIP_SETTING_OPT; // in theory, this setting's errors rise
     expect_order(&report, "at step \"off\", FLIP should rise but does not.");
-    report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
+    report.sweeps[0].setting = DIP_SETTING_TAA;
+    expect_order(&report, "the error of the mean of two frames");
+    report.options.burst = 1; // There are no two frames.
     char text[2 * DIP_COST_TEXT];
+    assert_false(dip_cost_order_text(&report, &report.sweeps[0], text, sizeof text));
+    report.options.burst = 2;
+    report.sweeps[0].setting = DIP_SETTING_MIPDEBUG;
     assert_false(dip_cost_order_text(&report, &report.sweeps[0], text, sizeof text));
     dip_cost_report_free(&report);
 }

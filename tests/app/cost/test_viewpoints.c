@@ -69,6 +69,10 @@ static void intervals_follow_the_tables(void **state) {
     const DipEstimate flicker = dip_cost_metric(&report, 0, DIP_COST_FLICKER);
     expect_near(flicker.value, 0.01, 1e-12);
     expect_near(flicker.high / flicker.value, rmse.high / rmse.value, 1e-12);
+    report.options.burst = 1; // One frame at each viewpoint tells nothing of flicker.
+    assert_true(isnan(dip_cost_metric(&report, 0, DIP_COST_FLICKER).value));
+    assert_true(isnan(dip_cost_metric_change(&report, 2, 0, DIP_COST_FLICKER).value));
+    report.options.burst = 2;
     const DipEstimate ssim = dip_cost_metric(&report, 0, DIP_COST_SSIM);
     expect_near(ssim.value, 0.91, 1e-12);
     expect_near(ssim.low, 0.91 - 4.303 * 0.01 / sqrt(3.0), 1e-5);
