@@ -348,14 +348,19 @@ void dip_section_predictions(DipForm *form, const DipCostReport *report) {
     if (p->count == 0) {
         return;
     }
+    char then[128] = "None of the others was measured afterwards.";
+    if (p->times.rows > 0) {
+        snprintf(then, sizeof then,
+                 "The %d combinations that the prediction found best were then measured.",
+                 p->times.rows);
+    }
     dip_form_heading(form, "predicted", "Predicted combinations");
     dip_form_paragraph(
         form, NULL,
         "The times and errors of %d combinations on path %s were predicted from %d "
-        "measured ones. The %d combinations that the prediction found best were then "
-        "measured. The table also tells how well each of the combinations that were measured "
-        "first is predicted from the others of these.%s",
-        dip_cost_searched(report), report->paths[0], p->trained, p->times.rows,
+        "measured ones. %s The table also tells how well each of the combinations that were "
+        "measured first is predicted from the others of these.%s",
+        dip_cost_searched(report), report->paths[0], p->trained, then,
         p->count > DIP_COST_MOST_COUNTED
             ? " The work of combinations was composed from the work of those that change fewer "
               "settings."
