@@ -110,7 +110,7 @@ static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate
     }
     if (report && (report->width != frame->width || report->height != frame->height)) {
         write_line(ui, NOTE_SIZE, dip_style_worse, room,
-                   "The report is of %dx%d, the panes are %dx%d.", report->width, report->height,
+                   "Of %dx%d; the panes have %dx%d.", report->width, report->height,
                    frame->width, frame->height);
     }
 }
@@ -247,10 +247,10 @@ static void declare_steps(DipUi *ui, DipWindow *window, DipRect room) {
     const DipPreviewChoice *choice = window->state->choice;
     const DipCandidate *advised = dip_preview_advised(choice);
     char heading[DIP_COSTS_HEADING] = "", fits[DIP_NUMBER_BYTES];
-    write_line(ui, SIZE, dip_style_white, &room, "One step");
     if (!advised) {
-        return;
+        return; // The reason stands on the left.
     }
+    write_line(ui, SIZE, dip_style_white, &room, "One step");
     const int next = choice->advice.next;
     declare_step(ui, window, advised, next >= 0 ? &choice->candidates.list[next] : NULL, true,
                  &room);
@@ -282,6 +282,10 @@ static void write_how_to(DipUi *ui, const DipWindow *window, DipRect room) {
 
 // --- the plot ------------------------------------------------------------------------------------
 
+// Times have a logarithmic axis, as on the report's page: the slowest combinations take many times
+// as long as those near the budget.
+static const double LEAST_MS = 0.01;
+
 typedef struct Plot {
     DipRect rect;
     double from_ms;
@@ -291,7 +295,7 @@ typedef struct Plot {
 } Plot;
 
 static int plot_x(const Plot *plot, double ms) {
-    const double share = (ms - plot->from_ms) / (plot->to_ms - plot->from_ms);
+    const double share = log(fmax(ms, LEAST_MS) / plot->from_ms) / log(plot->to_ms / plot->from_ms);
     return plot->rect.x + (int)(fmin(fmax(share, 0.0), 1.0) * (plot->rect.width - 1));
 }
 
@@ -309,10 +313,9 @@ static Plot plot_of(const DipCandidates *candidates, double budget_ms, DipRect r
         plot.from_flip = fmin(plot.from_flip, point->flip);
         plot.to_flip = fmax(plot.to_flip, point->flip);
     }
-    const double ms = fmax(plot.to_ms - plot.from_ms, 1e-3);
     const double flip = fmax(plot.to_flip - plot.from_flip, 1e-5);
-    plot.from_ms -= 0.06 * ms;
-    plot.to_ms += 0.03 * ms;
+    plot.from_ms = fmax(plot.from_ms, LEAST_MS) * 0.9;
+    plot.to_ms *= 1.1;
     plot.from_flip -= 0.08 * flip;
     plot.to_flip += 0.08 * flip;
     return plot;
@@ -345,33 +348,41 @@ static void draw_front(DipUi *ui, const Plot *plot, const DipPreviewChoice *choi
     }
 }
 
-// Draws about four round numbers along each axis, and lines across the plot at the numbers of the
-// error axis.
-static void draw_axes(DipUi *ui, const Plot *plot) {
-    const int line = dip_ui_line_height(ui, NOTE_SIZE), gap = dip_ui_px(ui, 4);
-    const int room = dip_ui_px(ui, 60);
-    const DipRect *rect = &plot->rect;
-    const double spans[2] = {plot->to_ms - plot->from_ms, plot->to_flip - plot->from_flip};
-    for (int axis = 0; axis < 2; ++axis) {
-        double step = pow(10.0, floor(log10(spans[axis] / 3.0)));
-        step *= spans[axis] / step > 12.0 ? 5.0 : spans[axis] / step > 6.0 ? 2.0 : 1.0;
-        const double from = axis ? plot->from_flip : plot->from_ms;
-        const double begin = ceil(from / step) * step;
-        for (int i = 0; begin + i * step < from + spans[axis]; ++i) {
-            const double at = begin + i * step;
-            char text[DIP_STEP_NAME_BYTES];
-            if (axis) {
-                const int y = plot_y(plot, at);
-                dip_flip_text(at, false, text);
-                dip_ui_fill(ui, (DipRect){rect->x, y, rect->width, 1}, dip_style_raised);
-                dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, rect->x - gap,
-                            y - line / 2, room, text);
-            } else {
-                snprintf(text, sizeof text, "%g", round(at * 100.0) / 100.0);
-                dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_CENTRE, plot_x(plot, at),
-                            dip_rect_bottom(*rect) + gap / 2, room, text);
+// Writes round times below the plot: each that has room beside the one before it.
+static void draw_times(DipUi *ui, const Plot *plot) {
+    static const double round_numbers[] = {1.0, 1.5, 2.0, 3.0, 5.0, 7.0};
+    enum { ROUND_NUMBERS = sizeof round_numbers / sizeof *round_numbers };
+    const int room = dip_ui_px(ui, 34), y = dip_rect_bottom(plot->rect) + dip_ui_px(ui, 2);
+    int last = plot->rect.x - room;
+    for (double decade = LEAST_MS; decade < plot->to_ms; decade *= 10.0) {
+        for (int i = 0; i < ROUND_NUMBERS; ++i) {
+            const double at = decade * round_numbers[i];
+            const int x = plot_x(plot, at);
+            if (at > plot->from_ms && at < plot->to_ms && x >= last + room) {
+                char text[DIP_STEP_NAME_BYTES];
+                snprintf(text, sizeof text, "%g", round(at * 1000.0) / 1000.0);
+                dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_CENTRE, x, y, room, text);
+                last = x;
             }
         }
+    }
+}
+
+// Draws about four round errors beside the plot, and lines across the plot at them.
+static void draw_errors(DipUi *ui, const Plot *plot) {
+    const int line = dip_ui_line_height(ui, NOTE_SIZE), gap = dip_ui_px(ui, 4);
+    const DipRect *rect = &plot->rect;
+    const double span = plot->to_flip - plot->from_flip;
+    double step = pow(10.0, floor(log10(span / 3.0)));
+    step *= span / step > 12.0 ? 5.0 : span / step > 6.0 ? 2.0 : 1.0;
+    const double begin = ceil(plot->from_flip / step) * step;
+    for (int i = 0; begin + i * step < plot->to_flip; ++i) {
+        const int y = plot_y(plot, begin + i * step);
+        char text[DIP_STEP_NAME_BYTES];
+        dip_flip_text(begin + i * step, false, text);
+        dip_ui_fill(ui, (DipRect){rect->x, y, rect->width, 1}, dip_style_raised);
+        dip_ui_text(ui, NOTE_SIZE, dip_style_dim, DIP_ALIGN_RIGHT, rect->x - gap, y - line / 2,
+                    dip_ui_px(ui, 60), text);
     }
 }
 
@@ -386,8 +397,9 @@ static void draw_budget(DipUi *ui, const Plot *plot, double budget_ms) {
     dip_ui_fill(ui, over, dip_style_white);
     dip_budget_ms_text(budget_ms, text);
     strcat(text, " ms");
-    dip_ui_text(ui, NOTE_SIZE, dip_style_white, DIP_ALIGN_RIGHT, over.x - gap, over.y + gap,
-                within.width, text);
+    const bool is_left = dip_ui_text_width(ui, NOTE_SIZE, text) + gap <= within.width;
+    dip_ui_text(ui, NOTE_SIZE, dip_style_white, is_left ? DIP_ALIGN_RIGHT : DIP_ALIGN_LEFT,
+                over.x + (is_left ? -gap : 2 * gap), over.y + gap, plot->rect.width, text);
 }
 
 // Marks the points of the current pane's settings and of the advice.
@@ -407,8 +419,9 @@ static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
         }
         if (i == choice->advice.chosen) {
             draw_dot(ui, plot, point, 11, dip_style_accent);
-            dip_ui_text(ui, NOTE_SIZE, dip_style_accent, DIP_ALIGN_CENTRE, x,
-                        y - line - dip_ui_px(ui, 6), plot->rect.width, "advised");
+            // Nothing lies to the lower left of the front.
+            dip_ui_text(ui, NOTE_SIZE, dip_style_accent, DIP_ALIGN_RIGHT, x - line / 2,
+                        y + line / 3, plot->rect.width, "advised");
         }
     }
 }
@@ -433,7 +446,8 @@ static void draw_plot(DipUi *ui, const DipWindow *window, DipRect room) {
     const double budget_ms = window->state->budget_ms;
     const Plot plot = plot_of(candidates, budget_ms, room);
     dip_ui_fill(ui, room, dip_style_well);
-    draw_axes(ui, &plot);
+    draw_times(ui, &plot);
+    draw_errors(ui, &plot);
     draw_budget(ui, &plot, budget_ms);
     for (int i = 0; i < candidates->count; ++i) {
         draw_dot(ui, &plot, &candidates->list[i], 3, dip_style_off);
