@@ -132,7 +132,7 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
 // wider than the frame's time without the step, since it says nothing.
 static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
     const char *why = price->doubtful ? "the machine was too busy while it was measured"
-                                      : "other programs disturbed the frames that timed it";
+                                      : "the times that it comes from differ too much";
     const double width = price->ms_high - price->ms_low;
     if (width <= price->without_ms) {
         const int decimals = width < 1.0 ? 2 : 1;

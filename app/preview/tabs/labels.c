@@ -26,10 +26,21 @@ DipPriceSum dip_pane_sum(const DipWindow *window, int pane) {
     return (DipPriceSum){.state = DIP_PRICE_UNKNOWN, .ms = frame_ms, .base_ms = frame_ms};
 }
 
-const char *dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum) {
-    const bool of_path = sum->state != DIP_PRICE_UNKNOWN &&
-                         !dip_cost_is_view(dip_price_view_report(dip_prices_view(window->prices)));
-    return of_path ? " along the path" : "";
+void dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum,
+                         char text[DIP_PANE_SCOPE_BYTES]) {
+    const DipCostReport *report = sum->state == DIP_PRICE_UNKNOWN
+                                      ? NULL
+                                      : dip_price_view_report(dip_prices_view(window->prices));
+    const DipPixels *frame = &window->frames[DIP_PANE_CURRENT];
+    text[0] = '\0';
+    if (!report || dip_cost_is_view(report)) {
+        return;
+    }
+    if (report->width == frame->width && report->height == frame->height) {
+        snprintf(text, DIP_PANE_SCOPE_BYTES, " along the path");
+    } else {
+        snprintf(text, DIP_PANE_SCOPE_BYTES, " at %dx%d", report->width, report->height);
+    }
 }
 
 void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TIME_BYTES]) {
@@ -55,14 +66,14 @@ void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TI
 
 enum { LABEL_SIZE = 13, LABEL_HEIGHT = 24, LABEL_MARGIN = 8, LABEL_PAD = 8 };
 
-// Writes the time of a pane: "4.6 ms  60 fps", "4.6 ms along the path  60 fps", or "one frame: 44.0
-// ms". Writes instead that the pane is a copy, or that frames come too slowly for temporal
-// antialiasing.
+// Writes the time of a pane: "4.6 ms  60 fps", "4.6 ms along the path  60 fps", "4.6 ms at
+// 640x480  14 fps" or "one frame: 44.0 ms". Writes instead that the pane is a copy, or that frames
+// come too slowly for temporal antialiasing.
 static void format_time(const DipWindow *window, int pane, char *text, size_t size_bytes) {
     const DipPaneFigures *figures = &window->figures[pane];
     const DipPriceSum sum = dip_pane_sum(window, pane);
-    const char *scope = dip_pane_time_scope(window, &sum);
-    char ms[DIP_PANE_TIME_BYTES];
+    char ms[DIP_PANE_TIME_BYTES], scope[DIP_PANE_SCOPE_BYTES];
+    dip_pane_time_scope(window, &sum, scope);
     dip_pane_time_text(window, pane, ms);
     if (figures->taa_speed.too_slow) {
         snprintf(text, size_bytes, "too slow for temporal AA: %d of %d frames a second",
@@ -79,7 +90,7 @@ static void format_time(const DipWindow *window, int pane, char *text, size_t si
 // What a label says: a title, the time or a warning, and the settings.
 typedef struct Label {
     const char *title;
-    char time[96];
+    char time[128];
     char settings[400];
 } Label;
 
@@ -122,9 +133,10 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
     Label label = label_of(ui, window, pane, room);
     const int title_width = dip_ui_text_width(ui, LABEL_SIZE, label.title) + pad;
     const DipPriceSum sum = dip_pane_sum(window, pane);
-    char usual_time[96];
+    char usual_time[128], scope[DIP_PANE_SCOPE_BYTES];
+    dip_pane_time_scope(window, &sum, scope);
     snprintf(usual_time, sizeof usual_time, "%s88.8 ms%s%s",
-             sum.state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "", dip_pane_time_scope(window, &sum),
+             sum.state == DIP_PRICE_ROUGH ? DIP_ROUGH_MARK : "", scope,
              window->figures[pane].fps > 0 ? "  60 fps" : "");
     const int usual = dip_ui_text_width(ui, LABEL_SIZE, usual_time);
     const int own = dip_ui_text_width(ui, LABEL_SIZE, label.time);

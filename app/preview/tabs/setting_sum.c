@@ -259,17 +259,21 @@ static void draw_budget(DipUi *ui, const Parts *parts, double sum_ms, double bud
 // Draws an entry of the legend at the left side of *rest, or in the row below if it does not fit.
 // Draws nothing if the time rounds to 0.0. room: the legend's first row.
 static void draw_entry(DipUi *ui, DipRect room, DipRect *rest, const char *name, double ms,
-                       DipColour colour, bool rest_of_sum) {
+                       DipPriceTrust trust, DipColour colour, bool rest_of_sum) {
     const int swatch = dip_ui_px(ui, SWATCH), gap = dip_ui_px(ui, 4);
-    char text[48];
+    char text[64], digits[DIP_STEP_NAME_BYTES];
     if (fabs(ms) < 0.05) {
         return;
     }
-    snprintf(text, sizeof text, "%s %s%.1f", name,
+    snprintf(digits, sizeof digits, "%.1f", fabs(ms));
+    if (trust == DIP_PRICE_TRUST_DOUBTFUL) {
+        dip_ms_text(fabs(ms), trust, INFINITY, digits);
+    }
+    snprintf(text, sizeof text, "%s %s%s", name,
              ms < 0.0      ? "\u2212"
              : rest_of_sum ? "+"
                            : "",
-             fabs(ms));
+             digits);
     const int width = swatch + gap + dip_ui_text_width(ui, NOTE_SIZE, text);
     if (width > rest->width && rest->x > room.x) {
         const int y = rest->y + dip_ui_px(ui, LEGEND_HEIGHT);
@@ -286,11 +290,12 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
     DipRect rest = row;
     for (int i = 0; i < PART_COUNT; ++i) {
         const bool frame = i == PART_BASE && sum->state == DIP_PRICE_UNKNOWN;
-        draw_entry(ui, row, &rest, frame ? "a frame" : part_names[i], parts->ms[i], part_colours[i],
+        draw_entry(ui, row, &rest, frame ? "a frame" : part_names[i], parts->ms[i],
+                   i == PART_BASE ? sum->base_trust : DIP_PRICE_TRUST_KNOWN, part_colours[i],
                    false);
     }
-    draw_entry(ui, row, &rest, parts->doubt ? "not told apart" : "together", parts->rest_ms,
-               dip_style_accent, true);
+    draw_entry(ui, row, &rest, parts->doubt ? "doubtful parts" : "together", parts->rest_ms,
+               DIP_PRICE_TRUST_KNOWN, dip_style_accent, true);
 }
 
 // --- the sum -------------------------------------------------------------------------------------
@@ -298,14 +303,18 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 // Writes the note beside the sum. The note says that the sum is doubtful, how far it exceeds the
 // budget, or what its 95 % interval is; the note is empty if none of these applies. A note of the
 // excess or of the interval ends with " along the path" if the sum is the price of a path and not
-// of the picture in view (dip_pane_time_scope).
+// of the picture in view, or with the size of the report's picture (dip_pane_time_scope).
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     const double budget_ms = window->state->budget_ms;
-    const char *scope = dip_pane_time_scope(window, sum);
-    char from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES];
+    char from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES], scope[DIP_PANE_SCOPE_BYTES];
+    dip_pane_time_scope(window, sum, scope);
     note[0] = '\0';
     if (dip_price_sum_trust(sum) == DIP_PRICE_TRUST_DOUBTFUL) {
-        snprintf(note, 96, "doubtful: the machine was busy");
+        if (sum->doubtful) {
+            snprintf(note, 96, "doubtful: the machine was busy");
+        } else {
+            snprintf(note, 96, "doubtful: its times differ too much");
+        }
     } else if (sum->ms > budget_ms) {
         dip_ms_text(sum->ms - budget_ms, DIP_PRICE_TRUST_KNOWN, 0.0, from);
         dip_budget_ms_text(budget_ms, to);
@@ -377,7 +386,7 @@ static void declare_measure(DipUi *ui, DipWindow *window, const DipPriceSum *sum
         dip_preview_time_runs(state)) {
         const int room = line->width;
         if (end_button(ui, DIP_ID_PAUSE, line, "Pause to measure",
-                       "The tags show what each step costs and gains once the picture rests. The "
+                       "Each step shows its price in time and error once the picture rests. The "
                        "space key pauses, too.")) {
             dip_preview_act(state, DIP_ACTION_PAUSE, 0, false, dip_ui_now_ns(ui));
         }

@@ -90,9 +90,11 @@ enum { DIP_PANE_TIME_BYTES = 48 };
 // single frame.
 DipPriceSum dip_pane_sum(const DipWindow *window, int pane);
 
-// Returns what the time of dip_pane_sum is valid for: " along the path", or "" for the picture in
-// view.
-const char *dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum);
+// Writes what the time of dip_pane_sum is valid for: " along the path"; " at 640x480", the size of
+// the report's picture, if the panes have another one; or "" for the picture in view.
+enum { DIP_PANE_SCOPE_BYTES = 40 };
+void dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum,
+                         char text[DIP_PANE_SCOPE_BYTES]);
 
 // Writes the time of dip_pane_sum: "8.4 ms"; "≈ 8.4 ms" if it was measured at rest; "8? ms" if it
 // is doubtful; "one frame: 44.0 ms" if it is the time of a single frame; or dots if it is not

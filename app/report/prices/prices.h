@@ -80,6 +80,7 @@ typedef struct DipPriceSum {
     bool has_flip;
     double flip;
     double base_ms;
+    DipPriceTrust base_trust; // dip_price_sum_trust of the base alone.
     // The price of each setting's step. The group size (asd) has no part of its own: its price is
     // in the part of adaptive AA.
     double parts_ms[DIP_SETTING_COUNT];

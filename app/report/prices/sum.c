@@ -105,6 +105,12 @@ DipPriceSum dip_price_sum(const DipPriceView *view, const DipQuality *quality) {
         .base_ms = alone.time.value,
         .doubtful = dip_price_is_doubtful(view),
     };
+    const DipPriceSum base = {.state = alone.state,
+                              .ms = alone.time.value,
+                              .ms_low = alone.time.low,
+                              .ms_high = alone.time.high,
+                              .doubtful = sum.doubtful};
+    sum.base_trust = dip_price_sum_trust(&base);
     double known_ms = sum.base_ms;
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         sum.parts_ms[s] = parts.is_part[s] ? parts.prices[s].ms : 0.0;

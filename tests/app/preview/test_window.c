@@ -17,6 +17,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -298,7 +299,9 @@ static void a_pane_has_one_time(void **unused) {
     assert_string_equal(text, DIP_ROUGH_MARK "6.7 ms");
     const DipPriceSum sum = dip_pane_sum(&window, 1);
     assert_true(sum.ms > 6.65 && sum.ms < 6.75);
-    assert_string_equal(dip_pane_time_scope(&window, &sum), "");
+    char scope[DIP_PANE_SCOPE_BYTES];
+    dip_pane_time_scope(&window, &sum, scope);
+    assert_string_equal(scope, "");
     dip_made_live(prices, "aa=none", 6.7, 0.9, 0.05);
     dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "7? ms");
@@ -323,7 +326,15 @@ static void a_report_gives_the_panes_time(void **unused) {
         dip_pane_time_text(&window, 0, text);
         assert_string_equal(text, "1.0 ms");
         assert_true(fabs(sum.ms - 1.0) < 1e-9);
-        assert_string_equal(dip_pane_time_scope(&window, &sum), " along the path");
+        char scope[DIP_PANE_SCOPE_BYTES];
+        window.frames[0].width = report.width;
+        window.frames[0].height = report.height;
+        dip_pane_time_scope(&window, &sum, scope);
+        assert_string_equal(scope, " along the path");
+        window.frames[0].width *= 2; // A pane of this size takes longer than the report says.
+        dip_pane_time_scope(&window, &sum, scope);
+        snprintf(text, sizeof text, " at %dx%d", report.width, report.height);
+        assert_string_equal(scope, text);
     }
     dip_prices_destroy(&prices);
     prices = dip_prices_create(NULL);
