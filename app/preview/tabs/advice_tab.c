@@ -109,9 +109,8 @@ static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate
                    choice->advice.tie_count);
     }
     if (report && (report->width != frame->width || report->height != frame->height)) {
-        write_line(ui, NOTE_SIZE, dip_style_worse, room,
-                   "Of %dx%d; the panes have %dx%d.", report->width, report->height,
-                   frame->width, frame->height);
+        write_line(ui, NOTE_SIZE, dip_style_worse, room, "Of %dx%d; the panes have %dx%d.",
+                   report->width, report->height, frame->width, frame->height);
     }
 }
 
