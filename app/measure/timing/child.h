@@ -40,8 +40,8 @@ DIP_API DipChild *dip_child_start(const DipChildDef *def, DipError *err);
 DIP_API int dip_child_thread_count(const DipChild *child);
 
 // Lets all threads of the child draw on as many processors as `threads` says, the same ones for all
-// children of this process (processors.h). If `threads` is 0, they may use all that this process may
-// use. Does nothing if the last call had the same number, or if the system cannot do this.
+// children of this process (processors.h). If `threads` is 0, they may use all that this process
+// may use. Does nothing if the last call had the same number, or if the system cannot do this.
 DIP_API void dip_child_confine(DipChild *child, int threads);
 
 // Closes the child's standard input and waits until the child has ended. If at_once is true, first
