@@ -11,13 +11,14 @@ fi
     --rounds 1000 >out.txt 2>err.txt &
 bench=$!
 places=''
-for _ in $(seq 100); do
+children=0
+for _ in $(seq 100); do # Until both programs have started and are confined.
     sleep .1
+    children=$(pgrep -P "$bench" | wc -l)
     places=$(cat $(pgrep -P "$bench" | sed 's:.*:/proc/&/task/*/status:') </dev/null |
         sed -n 's/^Cpus_allowed_list:[[:space:]]*//p' | sort -u)
-    echo "$places" | grep -qxE '[0-9]+' && break
+    [ "$children" = 2 ] && expr "$places" : '[0-9]*$' >/dev/null && break
 done
-children=$(pgrep -P "$bench" | wc -l)
 kill "$bench"
 wait "$bench"
 check "two programs draw, not $children" [ "$children" = 2 ]
