@@ -31,7 +31,8 @@ static int list_undecided(const DipCostReport *report, int budget, int rows[MOST
     int count = 0;
     for (int i = 0; i < candidates->count; i++) {
         const DipCandidate *c = &candidates->list[i];
-        if (!is_undecided(c, report->options.budgets_ms[budget]) ||
+        if (c->row == report->base_rows[0] || // It is timed beside all others anyway.
+            !is_undecided(c, report->options.budgets_ms[budget]) ||
             (chosen && c->loss > (1.0 - DIP_CLEARLY_BETTER) * chosen->loss)) {
             continue;
         }

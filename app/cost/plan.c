@@ -98,10 +98,9 @@ int64_t dip_cost_viewpoint_time_ns(const DipCostReport *report, const DipSession
 // --- rows ----------------------------------------------------------------------------------------
 
 // Finds the row of these settings on this path, or adds it. Looks only at the rows from
-// combined_first on. If the run predicts (plan.h), these are all rows but the first two, the base
-// row and the A/A row: the rows of the sweeps are combinations, too. Otherwise, these are all rows:
-// combined_first is still 0. There is always room, because the sweeps need far fewer rows than
-// DIP_COST_MAX_ROWS.
+// combined_first on. If the run predicts (plan.h), these are all rows but the A/A row: the rows of
+// the sweeps are combinations, too. Otherwise, these are all rows: combined_first is still 0. There
+// is always room, because the sweeps need far fewer rows than DIP_COST_MAX_ROWS.
 static int add_row(DipCostReport *report, const DipQuality *quality, int path) {
     const int known = dip_report_find(report, quality, path, report->combined_first);
     if (known >= 0) {
@@ -230,7 +229,34 @@ static void add_base_rows(DipCostReport *report) {
 
 // --- combinations --------------------------------------------------------------------------------
 
-// Adds a row for each combination of the combined settings.
+// Returns the new index of a row when the row `moved` becomes the last one.
+static int moved_row(int row, int moved, int last) {
+    return row == moved ? last : row - (row > moved);
+}
+
+// Makes the base row of path 0 the last row and the first combination. So the combination with the
+// baseline's settings takes its time from the row that all others are timed beside.
+static void begin_combinations(DipCostReport *report) {
+    const int last = report->row_count - 1, moved = report->base_rows[0];
+    const DipCostRow base = report->rows[moved];
+    memmove(&report->rows[moved], &report->rows[moved + 1],
+            (size_t)(last - moved) * sizeof *report->rows);
+    report->rows[last] = base;
+    for (int path = 0; path < report->path_count; path++) {
+        report->base_rows[path] = moved_row(report->base_rows[path], moved, last);
+        report->same_rows[path] = moved_row(report->same_rows[path], moved, last);
+    }
+    for (int s = 0; s < report->sweep_count; s++) {
+        DipCostSweep *sweep = &report->sweeps[s];
+        sweep->base = moved_row(sweep->base, moved, last);
+        for (int i = 0; i < sweep->row_count; i++) {
+            sweep->rows[i] = moved_row(sweep->rows[i], moved, last);
+        }
+    }
+    report->combined_first = last;
+}
+
+// Adds a row for each combination of the combined settings but the baseline, which has one.
 static bool plan_combinations(DipCostReport *report, DipError *err) {
     const DipCostOptions *options = &report->options;
     DipQuality *list = malloc(DIP_COST_MAX_ROWS * sizeof *list);
@@ -242,8 +268,15 @@ static bool plan_combinations(DipCostReport *report, DipError *err) {
                                                  DIP_COST_MAX_ROWS)
                     : 0;
     const bool fit = count + report->row_count <= DIP_COST_MAX_ROWS;
+    if (fit && count > 0) {
+        begin_combinations(report);
+    } else {
+        report->combined_first = report->row_count;
+    }
     for (int i = 0; fit && i < count; i++) {
-        report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
+        if (!dip_quality_equal(&list[i], &options->baseline)) {
+            report->rows[report->row_count++] = (DipCostRow){.quality = list[i], .path = 0};
+        }
     }
     free(list);
     return fit || dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "--combine",
@@ -345,8 +378,7 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     add_row(report, &report->options.baseline, add_path(report, session, DIP_CATEGORY_DEFAULT));
     if (report->options.predict) {
         add_base_rows(report);
-        report->combined_first = report->row_count;
-        add_row(report, &report->options.baseline, 0);
+        begin_combinations(report);
     }
     for (int s = 0; s < DIP_SETTING_COUNT; s++) {
         if (s == DIP_SETTING_AAA) {
@@ -357,7 +389,6 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     }
     if (!report->options.predict) {
         add_base_rows(report);
-        report->combined_first = report->row_count;
         if (!plan_combinations(report, err)) {
             return false;
         }

@@ -137,7 +137,8 @@ void dip_cost_step_text(const DipCostReport *report, const DipCostSweep *sweep, 
 
 void dip_cost_level_text(const DipCostReport *report, char text[DIP_COST_REASON]) {
     char spread[160] = "one start of the program does not tell by how much", widened[160] = "";
-    const double error = report->row_count > 0 ? report->rows[0].time.level_error : NAN;
+    const double error =
+        report->row_count > 0 ? report->rows[report->base_rows[0]].time.level_error : NAN;
     const double student = dip_student_quantile(0.975, report->starts > 1 ? report->starts - 1 : 1);
     if (report->starts > 1 && exp(student * error) > 2.0) {
         snprintf(spread, sizeof spread, "its %d starts lie too far apart to tell by how much",

@@ -185,14 +185,16 @@ typedef struct DipCostReport {
     // name.
     char path_hashes[DIP_COST_MAX_PATHS][33];
     int path_count;
-    DipCostRow *rows; // Owned. Row 0 is the baseline on path 0.
+    DipCostRow *rows; // Owned.
     int row_count;
     // Each path has two rows with the baseline's settings. One is the base row, beside which all
     // other rows of the path are timed. The other is the A/A row (same_rows), which is timed as if
     // it were another setting; its ratio shows how noisy the machine is.
     int base_rows[DIP_COST_MAX_PATHS];
     int same_rows[DIP_COST_MAX_PATHS];
-    int combined_first; // Rows from this index on are the combinations, on path 0.
+    // Rows from this index on are the combinations, on path 0. The first of them is the base row of
+    // path 0; in reports of older programs the baseline was timed once more as a combination.
+    int combined_first;
     DipCostSame *same;  // Combinations without a row of their own. Owned.
     int same_count;
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];

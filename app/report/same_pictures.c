@@ -16,9 +16,14 @@ bool dip_cost_same_pictures(const DipCostReport *report, int a, int b) {
 }
 
 // Returns the row that stands for the row `row`. Of all combinations with the same pictures, it is
-// the one with the fewest settings off their defaults. If several have equally few, it is the first
-// of them.
+// the base row, which all others are timed beside, or else the one with the fewest settings off
+// their defaults. If several have equally few, it is the first of them.
 static int representative(const DipCostReport *report, int row) {
+    const int base = report->base_rows[0];
+    if (base >= report->combined_first &&
+        (row == base || dip_cost_same_pictures(report, row, base))) {
+        return base;
+    }
     int best = row;
     int least = dip_quality_count_changes(&report->rows[row].quality);
     for (int r = report->combined_first; r < report->row_count; r++) {

@@ -145,7 +145,7 @@ static bool run(DipSession *session, const void *all, DipError *err) {
                 read_parts(arguments, &report, &machines, err);
     int missing = 0;
     for (int p = 0; done && p < report.options.places; p++) {
-        missing += !report.rows[0].judged[p];
+        missing += !report.rows[report.base_rows[0]].judged[p];
     }
     if (missing > 0) {
         printf("%d of %d viewpoints are missing: no part has them\n", missing,

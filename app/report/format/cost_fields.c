@@ -89,7 +89,8 @@ static const DipField report_fields[] = {
     HEADER_NUMBER("rounds", rounds, 0, 10000,
                   "Number of rounds timed; 0 if the report has no times."),
     HEADER_NUMBER("combined_first", combined_first, 0, DIP_COST_MAX_ROWS,
-                  "Rows from this index on are the combinations, on path 0."),
+                  "Rows from this index on are the combinations, on path 0. The first is the base "
+                  "row of path 0; older programs timed the baseline once more instead."),
     HEADER_NUMBER("places", options.places, 1, DIP_COST_MAX_PLACES,
                   "Number of viewpoints on each path."),
     HEADER_NUMBER("burst", options.burst, 1, DIP_COST_MAX_BURST,

@@ -54,6 +54,9 @@ def steps(group, changing):
 def check(name, swept):
     report = json.load(open(f"{name}/cost.json"))
     rows, first = report["rows"], report["combined_first"]
+    base, same = report["paths"][0]["base_row"], report["paths"][0]["same_row"]
+    assert [r for r, row in enumerate(rows) if row["path"] == 0 and r != same and
+            row["settings"] == rows[base]["settings"]] == [base] and base >= first
     changing, named = set(), set()
     for sweep in report["sweeps"]:
         pictures = {rows[s["row"]]["places"][0]["pictures"] for s in sweep["steps"]}

@@ -88,8 +88,11 @@ def check_sweeps(report, printer, out):
 
 
 def check_sums(report, printer, out):
-    rows = [row for row in report["rows"] if row["path"] == 0]
+    rows = [row for index, row in enumerate(report["rows"])
+            if row["path"] == 0 and index != report["paths"][0]["same_row"]]
     answers = ask(printer, out, [f'sum {row["settings"]}' for row in rows])
+    base = report["rows"][report["paths"][0]["base_row"]]
+    assert [row for row in rows if row["settings"] == base["settings"]] == [base]
     known = {}
     for row, answer in zip(rows, answers):
         row = known.setdefault(row["settings"], row)  # Of equal rows, the first.
