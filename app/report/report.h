@@ -195,7 +195,7 @@ typedef struct DipCostReport {
     // Rows from this index on are the combinations, on path 0. The first of them is the base row of
     // path 0; in reports of older programs the baseline was timed once more as a combination.
     int combined_first;
-    DipCostSame *same;  // Combinations without a row of their own. Owned.
+    DipCostSame *same; // Combinations without a row of their own. Owned.
     int same_count;
     DipCostSweep sweeps[DIP_COST_MAX_SWEEPS];
     int sweep_count;

@@ -195,7 +195,11 @@ void dip_cost_predict_and_judge_there(DipCostElsewherePrediction *p) {
     p->timed_as_is = dip_cost_misses_of(as_is[0], count[0]);
     p->timed_left_out = dip_cost_misses_of(fitted[0], count[0]);
     p->checked_as_is = dip_cost_misses_of(as_is[1], count[1]);
-    p->checked_fitted = dip_cost_misses_of(fitted[1], count[1]);
+    p->from_report = count[0] == 0 || p->timed_left_out.median > p->timed_as_is.median;
+    p->checked_fitted = p->from_report ? p->checked_as_is : dip_cost_misses_of(fitted[1], count[1]);
+    for (int i = 0; p->from_report && i < p->count; i++) {
+        p->list[i].ms = p->list[i].as_is_ms;
+    }
 }
 
 // --- the whole -----------------------------------------------------------------------------------

@@ -37,7 +37,8 @@ typedef struct DipCostPredictedThere {
     DipQuality quality;
     double report_ms; // Mean time of a frame in the report, which measured or predicted it.
     double as_is_ms;  // Mean time there, predicted from the report alone.
-    double ms;        // Mean time there, predicted from the report and from what was timed there.
+    double ms;        // Mean time there, predicted from the report and from what was timed there,
+                      // or as_is_ms (DipCostElsewherePrediction.from_report).
     int timed;        // Index in the prediction's `timed`; -1 if it was not timed there.
 } DipCostPredictedThere;
 
@@ -62,6 +63,9 @@ typedef struct DipCostElsewherePrediction {
     // Misses of the times to which prices are fitted. Each time is predicted with prices that are
     // fitted to the report and to all others of these times.
     DipCostMisses timed_left_out;
+    // True if all `ms` are as_is_ms: nothing was timed there, or timed_left_out has a greater
+    // median than timed_as_is, so that the times, each with an error of its own, mislead.
+    bool from_report;
     DipCostMisses checked_as_is;  // How far as_is_ms misses the times of checked combinations.
     DipCostMisses checked_fitted; // How far ms misses the times of checked combinations.
     double wait; // Waiting time of the threads in the timed frames / (time of these frames * number

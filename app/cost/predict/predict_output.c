@@ -52,7 +52,9 @@ static const DipField there_fields[] = {
      DIP_FACT(NUMBER, DipCostPredictedThere, report_ms), .digits = 2},
     {"report_alone_ms", NULL, "ms", "Mean time predicted from the report alone.",
      DIP_FACT(NUMBER, DipCostPredictedThere, as_is_ms), .digits = 2},
-    {"ms", "predicted", "ms", "Mean time predicted from the report and from what was timed there.",
+    {"ms", "predicted", "ms",
+     "Mean time predicted from the report and from what was timed there, or from the report alone "
+     "(`from_report_alone`).",
      DIP_FACT(NUMBER, DipCostPredictedThere, ms), .digits = 2},
     {"timed", NULL, NULL,
      "Mean time that was timed there; null if the combination was not timed there.",
@@ -81,8 +83,8 @@ static const DipField misses_fields[] = {
            "Misses of the combinations that were timed only as a check, predicted from the report "
            "alone."),
     MISSES("checked", checked_fitted,
-           "Misses of the combinations that were timed only as a check, predicted from the report "
-           "and what was timed there."),
+           "Misses of the combinations that were timed only as a check, predicted as in "
+           "`ms`."),
 };
 static const DipRecord misses_record =
     DIP_RECORD("misses there", "How far the predictions lie from what was timed.", misses_fields,
@@ -103,6 +105,10 @@ static const DipField prediction_fields[] = {
      DIP_FACT(RECORD, DipCostElsewherePrediction, there), .record = &place_record},
     {"factor", NULL, NULL, "How many times as long frames take there as the report alone predicts.",
      DIP_FACT(NUMBER, DipCostElsewherePrediction, factor)},
+    {"from_report_alone", NULL, NULL,
+     "Whether `ms` is `report_alone_ms`: nothing was timed there, or the times there would each be "
+     "missed further (in the median) if predicted with the help of the others.",
+     DIP_FACT(FLAG, DipCostElsewherePrediction, from_report)},
     {"wait", NULL, NULL,
      "Share of their time for which the threads waited for a processor, in what was timed there.",
      DIP_FACT(NUMBER, DipCostElsewherePrediction, wait)},
@@ -131,6 +137,10 @@ static void print_checks(DipForm *form, const DipCostElsewherePrediction *p) {
                       p->timed_count, dip_cost_plural(p->timed_count), p->factor);
         dip_section_misses(form, "by report", &p->timed_as_is);
         dip_section_misses(form, "by the others", &p->timed_left_out);
+        dip_form_fact(form, "Predicted", "%s",
+                      p->from_report ? "from the report alone: with the help of the others, these "
+                                       "times are missed further"
+                                     : "from the report and these times");
     } else {
         dip_form_fact(form, "Timed", "nothing: the predictions come from the report alone");
     }

@@ -396,18 +396,20 @@ static void a_smaller_size_tells_the_prices_of_others(void **state) {
 
 // --- elsewhere -----------------------------------------------------------------------------------
 
-// Elsewhere, shading takes 1.5 times as long for the same work, and all else takes as long.
-static void make_times_there(const DipCostRow *row, DipCostElsewhere *there) {
+// Elsewhere, shading takes `shading` times as long for the same work, and all else takes as long.
+static void make_times_there(const DipCostRow *row, double shading, DipCostElsewhere *there) {
     *there = (DipCostElsewhere){.quality = row->quality};
     memcpy(there->counters, row->counters, sizeof there->counters);
     for (int s = 0; s < DIP_COST_STAGE_COUNT; s++) {
-        there->stage_ms[s] = row->stage_ms[s] * (s == DIP_COST_STAGE_shading ? 1.5 : 1.0);
+        there->stage_ms[s] = row->stage_ms[s] * (s == DIP_COST_STAGE_shading ? shading : 1.0);
         there->ms.value += there->stage_ms[s];
     }
 }
 
+// Every other one of the times to which prices are fitted is too long by the share `error`, and the
+// others are too short by it.
 static DipCostElsewherePrediction *predict_there(const DipCostReport *report, int timed,
-                                                 int checked) {
+                                                 int checked, double shading, double error) {
     DipCostElsewherePrediction *p = calloc(1, sizeof *p);
     assert_non_null(p);
     p->report = *report;
@@ -432,7 +434,14 @@ static DipCostElsewherePrediction *predict_there(const DipCostReport *report, in
     }
     for (int i = 0; i < COMBINATIONS; i++) {
         if (p->list[i].timed >= 0) {
-            make_times_there(&report->rows[i], &p->timed[p->list[i].timed]);
+            make_times_there(&report->rows[i], shading, &p->timed[p->list[i].timed]);
+        }
+    }
+    for (int t = 0; t < timed; t++) {
+        const double factor = t % 2 == 0 ? 1.0 + error : 1.0 - error;
+        p->timed[t].ms.value *= factor;
+        for (int s = 0; s < DIP_COST_STAGE_COUNT; s++) {
+            p->timed[t].stage_ms[s] *= factor;
         }
     }
     dip_cost_predict_and_judge_there(p);
@@ -443,7 +452,8 @@ static void six_times_elsewhere_tell_all_others(void **state) {
     (void)state;
     DipCostReport report;
     make_report(&report, courtyard_flip, 0.01, 1);
-    DipCostElsewherePrediction *p = predict_there(&report, 6, 30);
+    DipCostElsewherePrediction *p = predict_there(&report, 6, 30, 1.5, 0.0);
+    assert_false(p->from_report);
     assert_int_equal(p->timed_as_is.rows, 6);
     assert_int_equal(p->timed_left_out.rows, 6);
     assert_int_equal(p->checked_as_is.rows, 30);
@@ -451,7 +461,7 @@ static void six_times_elsewhere_tell_all_others(void **state) {
     double misses[COMBINATIONS];
     for (int i = 0; i < COMBINATIONS; i++) {
         DipCostElsewhere there;
-        make_times_there(&report.rows[i], &there);
+        make_times_there(&report.rows[i], 1.5, &there);
         misses[i] = fabs(p->list[i].ms / there.ms.value - 1.0);
     }
     const double all = dip_cost_misses_of(misses, COMBINATIONS).p90;
@@ -462,10 +472,29 @@ static void six_times_elsewhere_tell_all_others(void **state) {
     }
     free(p->list);
     free(p);
-    p = predict_there(&report, 0, 30);
+    p = predict_there(&report, 0, 30, 1.5, 0.0);
+    assert_true(p->from_report);
     assert_true(p->factor == 1.0);
     assert_int_equal(p->timed_as_is.rows, 0);
     assert_true(p->checked_fitted.median == p->checked_as_is.median);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        assert_true(p->list[i].ms == p->list[i].as_is_ms);
+    }
+    free(p->list);
+    free(p);
+    dip_cost_report_free(&report);
+}
+
+// Where all takes as long as in the report, but the six times are uncertain by 8 %.
+static void uncertain_times_elsewhere_do_not_mislead(void **state) {
+    (void)state;
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.01, 1);
+    DipCostElsewherePrediction *p = predict_there(&report, 6, 30, 1.0, 0.08);
+    if (!(p->from_report && p->checked_fitted.p90 < 0.03)) {
+        fail_msg("checked %.4f alone and %.4f, left out %.4f, by report %.4f", p->checked_as_is.p90,
+                 p->checked_fitted.p90, p->timed_left_out.median, p->timed_as_is.median);
+    }
     for (int i = 0; i < COMBINATIONS; i++) {
         assert_true(p->list[i].ms == p->list[i].as_is_ms);
     }
@@ -485,6 +514,7 @@ int main(void) {
         cmocka_unit_test(counters_are_scaled_to_the_timed_frames),
         cmocka_unit_test(a_smaller_size_tells_the_prices_of_others),
         cmocka_unit_test(six_times_elsewhere_tell_all_others),
+        cmocka_unit_test(uncertain_times_elsewhere_do_not_mislead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
