@@ -14,8 +14,10 @@ warnings="-Wall -Wextra -Wpedantic -Werror"
 draws() { # PROGRAM FRAGMENTS
     [ "$("$1" "$folder/picture.ppm")" = "$2 fragments shaded" ] || fail "$1 draws something else"
 }
-# build_project FOLDER [CMAKE OPTION]...: builds a CMake project against the installed copy. With make,
-# CMake takes about twice the processor time that it takes with Ninja.
+# With make, CMake takes about twice the processor time that it takes with Ninja.
+ninja=
+command -v ninja >/dev/null && ninja='-G Ninja'
+# build_project FOLDER [CMAKE OPTION]...: builds a CMake project against the installed copy.
 build_project() {
     project=$1
     shift
@@ -36,7 +38,7 @@ done
 
 # The CMake package. The examples' folder is a project of its own.
 cp -r "$examples" "$folder/example"
-build_project "$folder/example" -G Ninja
+build_project "$folder/example" $ninja
 draws "$folder/example/build/dip_example_triangle" 23224
 draws "$folder/example/build/dip_example_textured" 49148
 [ "$("$folder/example/build/dip_example_compare" aa=none aa=4,af=16 "$folder/picture.ppm")" = \
@@ -92,7 +94,7 @@ endforeach()
 add_executable(two_ways two_ways.c)
 target_link_libraries(two_ways PRIVATE Diptych::measure m)
 TEXT
-build_project "$folder/model" -G Ninja
+build_project "$folder/model" $ninja
 for kind in "" _shared; do
     (cd "$folder" && first_draws "$folder/model/build/first$kind")
     "$folder/model/build/scene$kind" || fail "scene$kind fails"
