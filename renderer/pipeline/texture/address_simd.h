@@ -23,13 +23,18 @@ VEC_INLINE Vf near_texture(Vf coordinate) {
     return vf_max(vf_min(coordinate, vf_splat(2.0f)), vf_splat(-1.0f));
 }
 
+// Returns how far a coordinate lies in the pair of copies that a mirrored axis repeats: 0..2.
+VEC_INLINE Vf mirror_phase(Vf coordinate) {
+    return coordinate - 2.0f * vf_floor(coordinate * 0.5f);
+}
+
 // Returns a coordinate within 0..1 at which an axis without a border has the same texels.
 VEC_INLINE Vf fold(Vf coordinate, DipWrap wrap) {
     Vf folded = coordinate;
     if (wrap == DIP_WRAP_REPEAT) {
         folded = coordinate - vf_floor(coordinate);
     } else if (wrap == DIP_WRAP_MIRROR) {
-        const Vf phase = coordinate - 2.0f * vf_floor(coordinate * 0.5f); // 0..2
+        const Vf phase = mirror_phase(coordinate);
         folded = vf_min(phase, 2.0f - phase);
     }
     return vf_min(vf_max(folded, vf_splat(0.0f)), vf_splat(1.0f));
@@ -57,6 +62,13 @@ VEC_INLINE Mask reads_first_alone(Vf coordinate, DipWrap wrap, Vi size) {
     }
     const Vf scale = vf_from_int(size << 8);
     return vi_lt(vi_from_float(fold(coordinate, wrap) * scale), vi_splat(128));
+}
+
+// Returns the lanes whose position moves towards the first texel as the coordinate grows: those in
+// mirrored copies.
+VEC_INLINE Mask runs_backwards(Vf coordinate, DipWrap wrap) {
+    return wrap == DIP_WRAP_MIRROR ? vf_lt(vf_splat(1.0f), mirror_phase(coordinate))
+                                   : mask_from_bits(0);
 }
 
 // Returns the position of the nearest texel. Without a border, texel `size` has no row below it.

@@ -23,7 +23,7 @@ typedef struct ReadMode {
     bool in_bits;
     bool any_wrap; // all address modes, in floats; otherwise only repeat and clamp
     bool nearest;  // the nearest texel, in floats, with all address modes
-    bool marks;    // mark the positions beyond which nothing changes (ReadList)
+    bool marks;    // mark what the derivatives of the read depend on (ReadList)
 } ReadMode;
 
 // The probes of a batch's footprints in one of their two levels. Only anisotropic reads use this.
@@ -248,8 +248,13 @@ VEC_INLINE void next_probe(Walk *walk, ReadMode mode) {
     }
 }
 
-// Marks in the list of reads: along this axis, all positions around read the same texel.
-enum { FLAT_X = 1 << 8, FLAT_Y = 1 << 16 };
+// Marks in the list of reads: along this axis, all positions around read the same texel, or the
+// copy of the texture is mirrored.
+enum { FLAT_X = 1 << 8, BACKWARDS_X = 1 << 9, FLAT_Y = 1 << 16, BACKWARDS_Y = 1 << 17 };
+
+VEC_INLINE Vi mark(Mask lanes, int mark_of_lanes) {
+    return vi_select(lanes, vi_splat(mark_of_lanes), vi_splat(0));
+}
 
 // Returns the bilinear read at the walk's current position.
 VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *walk) {
@@ -277,10 +282,12 @@ VEC_INLINE Taps find_taps(const DipTexture *texture, ReadMode mode, const Walk *
         }
         taps.index = (level->offset + (taps.x8 >> 8)) + (taps.y8 >> 8) * level->stride;
         if (mode.marks) {
-            const Mask x = reads_first_alone(u, texture->wrap_u, level->width);
-            const Mask y = reads_first_alone(v, texture->wrap_v, level->height);
-            taps.marks = vi_select(x, vi_splat(FLAT_X), vi_splat(0)) |
-                         vi_select(y, vi_splat(FLAT_Y), vi_splat(0));
+            taps.marks = mark(reads_first_alone(u, texture->wrap_u, level->width), FLAT_X) |
+                         mark(reads_first_alone(v, texture->wrap_v, level->height), FLAT_Y);
+            if (mode.any_wrap) {
+                taps.marks |= mark(runs_backwards(u, texture->wrap_u), BACKWARDS_X) |
+                              mark(runs_backwards(v, texture->wrap_v), BACKWARDS_Y);
+            }
         }
     }
     return taps;
@@ -306,7 +313,7 @@ typedef struct ReadList {
     int far[VECTORS];
     int32_t index[VECTORS * MOST_READS][DIP_LANES]; // the quads
     // Positions between the texels in 1/256 texel: x in the lowest 8 bits, y in the highest 8 bits.
-    // In between are FLAT_X and FLAT_Y, if the mode marks positions.
+    // In between are marks like FLAT_X, if the mode marks positions.
     int32_t between[VECTORS * MOST_READS][DIP_LANES];
 } ReadList;
 

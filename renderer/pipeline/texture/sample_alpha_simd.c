@@ -8,6 +8,13 @@ typedef struct AlphaChange {
     Vf u, v;
 } AlphaChange;
 
+// Returns the derivative of a read along an axis, as the marks of the read say. along: the change
+// towards the next texel of the texture.
+VEC_INLINE Vf change_along(Vf along, Vi marks, int flat, int backwards) {
+    const Vf turned = vf_select(vi_lt(vi_splat(0), marks & backwards), -along, along);
+    return vf_select(vi_lt(vi_splat(0), marks & flat), vf_splat(0.0f), turned);
+}
+
 // Returns the alpha of a listed read, in units of 1 / (255 * 65536). All numbers are whole and
 // below 2^24, so they are exact. change: if not NULL, receives its derivative per texel of the
 // level that is read.
@@ -25,11 +32,10 @@ VEC_INLINE Vf bilinear_alpha(const DipTexture *texture, const ReadList *list, in
         const Vf a = vf_from_int(quad & 255), b = vf_from_int(quad >> 16 & 255);
         const Vf c = vf_from_int(quad >> 8 & 255), d = vf_from_int((Vi)((Vu)quad >> 24));
         const Vf right = vf_from_int(x);
-        const Vf none = vf_splat(0.0f);
         const Vf along_u = ((b - a) * (256.0f - down) + (d - c) * down) * 256.0f;
         const Vf along_v = ((c - a) * (256.0f - right) + (d - b) * right) * 256.0f;
-        change->u = vf_select(vi_lt(vi_splat(0), between & FLAT_X), none, along_u);
-        change->v = vf_select(vi_lt(vi_splat(0), between & FLAT_Y), none, along_v);
+        change->u = change_along(along_u, between, FLAT_X, BACKWARDS_X);
+        change->v = change_along(along_v, between, FLAT_Y, BACKWARDS_Y);
     }
     return upper * (256.0f - down) + lower * down;
 }

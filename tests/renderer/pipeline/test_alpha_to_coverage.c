@@ -16,11 +16,24 @@ enum { SIDE = 8, AT = 4, TEXELS = 16, STEP = 16, GRADIENTS = 10000 };
 
 static uint8_t picture[SIDE][SIDE][4];
 
+// How much alpha grows from column to column and from row to row of a ramp, in 1/255.
+typedef struct Ramp {
+    DipWrap wrap;
+    int step[2];
+} Ramp;
+
+static const Ramp ramps[] = {{DIP_WRAP_REPEAT, {STEP, 0}}, {DIP_WRAP_MIRROR, {10, 6}}};
+
+enum { RAMPS = sizeof ramps / sizeof *ramps };
+
 // A plane of alpha over the picture, and what the clip shader does with it.
 typedef struct Plane {
-    // Texture coordinates, in texels, are `middle` in the middle of pixel (AT, AT), and change by
-    // `per_x` and `per_y` from pixel to pixel.
+    int ramp; // index of the texture
+    // Texture coordinates, in texels, are `middle` in the middle of pixel (AT, AT), in copy `lap`
+    // of the texture, and change by `per_x` and `per_y` from pixel to pixel. In odd copies, which
+    // are mirrored, `middle` is the place within the texture.
     double middle[2];
+    int lap[2];
     double per_x[2];
     double per_y[2];
     float cutoff;
@@ -36,7 +49,9 @@ static void vertex_shader(const DipVertexBatch *batch) {
         batch->clip[2][i] = batch->in[2][i];
         batch->clip[3][i] = 1.0f;
         for (int k = 0; k < 2; k++) {
-            const double texels = plane->middle[k] + (x - (AT + 0.5)) * plane->per_x[k] +
+            const double place = plane->lap[k] % 2 ? TEXELS - plane->middle[k] : plane->middle[k];
+            const double texels = plane->lap[k] * TEXELS + place +
+                                  (x - (AT + 0.5)) * plane->per_x[k] +
                                   (y - (AT + 0.5)) * plane->per_y[k];
             batch->varying[k][i] = (float)(texels / TEXELS);
         }
@@ -61,22 +76,21 @@ static void white(DipFragmentBatch *batch) {
     }
 }
 
-// A texture whose alpha grows by STEP / 255 from column to column. Its mip levels lie on the same
-// plane.
-static DipTexture *make_ramp(void) {
+// Makes the texture of a ramp. Its mip levels lie on the same plane.
+static DipTexture *make_ramp(const Ramp *ramp) {
     static uint8_t rgba8[TEXELS][TEXELS][4];
     for (int y = 0; y < TEXELS; y++) {
         for (int x = 0; x < TEXELS; x++) {
             memset(rgba8[y][x], 255, 3);
-            rgba8[y][x][3] = (uint8_t)(STEP * x);
+            rgba8[y][x][3] = (uint8_t)(ramp->step[0] * x + ramp->step[1] * y);
         }
     }
     const DipTextureDef def = {.name = "ramp",
                                .width = TEXELS,
                                .height = TEXELS,
                                .rgba8 = &rgba8[0][0][0],
-                               .wrap_u = DIP_WRAP_REPEAT,
-                               .wrap_v = DIP_WRAP_REPEAT};
+                               .wrap_u = ramp->wrap,
+                               .wrap_v = ramp->wrap};
     DipTexture *texture = dip_texture_create(&def, NULL);
     assert_non_null(texture);
     return texture;
@@ -94,14 +108,16 @@ static DipMesh *make_cover(float depth) {
 
 typedef struct Bench {
     DipPipeline *pipeline;
-    DipTexture *ramp;
+    DipTexture *ramps[RAMPS];
     DipMesh *front;
     DipMesh *back;
 } Bench;
 
 static void open_bench(Bench *bench, DipIsa isa) {
     bench->pipeline = dip_pipeline_create(NULL, isa, SIDE, SIDE, NULL);
-    bench->ramp = make_ramp();
+    for (int i = 0; i < RAMPS; i++) {
+        bench->ramps[i] = make_ramp(&ramps[i]);
+    }
     bench->front = make_cover(0.5f);
     bench->back = make_cover(0.25f);
     assert_non_null(bench->pipeline);
@@ -109,7 +125,9 @@ static void open_bench(Bench *bench, DipIsa isa) {
 
 static void close_bench(Bench *bench) {
     dip_pipeline_destroy(&bench->pipeline);
-    dip_texture_destroy(&bench->ramp);
+    for (int i = 0; i < RAMPS; i++) {
+        dip_texture_destroy(&bench->ramps[i]);
+    }
     dip_mesh_destroy(&bench->front);
     dip_mesh_destroy(&bench->back);
 }
@@ -119,7 +137,7 @@ static void close_bench(Bench *bench) {
 static unsigned draw(const Bench *bench, const Plane *plane, DipPatternKind kind, int anisotropy) {
     DipSampleValue samples[DIP_READBACK_STRIDE] = {{.patch = 0}};
     const DipSampleReadback readback = {{AT, AT, AT + 1, AT + 1}, samples};
-    const DipSampler sampler = {.texture = bench->ramp, .max_anisotropy = anisotropy};
+    const DipSampler sampler = {.texture = bench->ramps[plane->ramp], .max_anisotropy = anisotropy};
     const DipDraw draws[2] = {{.mesh = bench->front,
                                .vertex_shader = vertex_shader,
                                .fragment_shader = white,
@@ -170,12 +188,43 @@ static Plane random_plane(Random *random, int samples) {
     return plane;
 }
 
+// Returns how fast alpha changes along both axes of the screen, |d alpha / dx| + |d alpha / dy|.
+static double slope_of(const Plane *plane) {
+    double by_x = 0.0, by_y = 0.0;
+    for (int k = 0; k < 2; k++) {
+        const double per_texel = ramps[plane->ramp].step[k] / 255.0;
+        const double by_coordinate = plane->lap[k] % 2 ? -per_texel : per_texel;
+        by_x += by_coordinate * plane->per_x[k];
+        by_y += by_coordinate * plane->per_y[k];
+    }
+    return fmax(fabs(by_x) + fabs(by_y), 0.02);
+}
+
+static double alpha_of(const Plane *plane) {
+    double alpha = 0.0;
+    for (int k = 0; k < 2; k++) {
+        const double texel = floor(plane->middle[k] * 256.0) / 256.0 - 0.5;
+        alpha += ramps[plane->ramp].step[k] / 255.0 * texel;
+    }
+    return alpha;
+}
+
+// Chooses a plane in a copy of the mirrored ramp, with a gradient as random_plane chooses it. Both
+// axes change alpha, so that their changes add up in some copies and cancel in others.
+static Plane random_mirrored_plane(Random *random, int samples) {
+    Plane plane = random_plane(random, samples);
+    plane.ramp = 1;
+    for (int k = 0; k < 2; k++) {
+        plane.lap[k] = random_int(random, -3, 3);
+        plane.middle[k] = random_int(random, 4 * 256, 12 * 256) / 256.0 + 1.0 / 1024.0;
+    }
+    plane.cutoff = (float)(alpha_of(&plane) + random_real(random, -0.7, 0.7) * slope_of(&plane));
+    return plane;
+}
+
 // The share of a pixel that an edge at the cutoff leaves to the surface.
 static double share_of(const Plane *plane) {
-    const double per_texel = STEP / 255.0;
-    const double alpha = (floor(plane->middle[0] * 256.0) / 256.0 - 0.5) * per_texel;
-    const double slope = (fabs(plane->per_x[0]) + fabs(plane->per_y[0])) * per_texel;
-    const double share = (alpha - (double)plane->cutoff) / fmax(slope, 0.02) + 0.5;
+    const double share = (alpha_of(plane) - (double)plane->cutoff) / slope_of(plane) + 0.5;
     return fmin(fmax(share, 0.0), 1.0);
 }
 
@@ -187,8 +236,9 @@ static unsigned first_samples(const DipSamplePattern *pattern, int count) {
     return samples;
 }
 
-static void coverage_is_within_half_a_sample_of_alpha(void **state) {
-    (void)state;
+typedef Plane ChoosePlane(Random *random, int samples);
+
+static void check_coverage(ChoosePlane *choose) {
     static const int counts[] = {1, 2, 4, 6, 8};
     for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
         if (!dip_isa_available((DipIsa)isa)) {
@@ -202,7 +252,7 @@ static void coverage_is_within_half_a_sample_of_alpha(void **state) {
         for (int i = 0; i < GRADIENTS; i++) {
             const int samples = counts[i % 5];
             const DipPatternKind kind = (DipPatternKind)(i / 5 % DIP_PATTERN_KINDS);
-            const Plane plane = random_plane(&random, samples);
+            const Plane plane = choose(&random, samples);
             const unsigned held = draw(&bench, &plane, kind, i % 2 ? 1 : 8);
             const int count = __builtin_popcount(held);
             const double share = share_of(&plane);
@@ -216,6 +266,16 @@ static void coverage_is_within_half_a_sample_of_alpha(void **state) {
         assert_true(fabs(sum / GRADIENTS) < 0.002);
         assert_true(partly > GRADIENTS / 10);
     }
+}
+
+static void coverage_is_within_half_a_sample_of_alpha(void **state) {
+    (void)state;
+    check_coverage(random_plane);
+}
+
+static void so_it_is_in_mirrored_copies(void **state) {
+    (void)state;
+    check_coverage(random_mirrored_plane);
 }
 
 // With one sample, the rule is the alpha test.
@@ -307,6 +367,7 @@ static void groups_and_alpha_to_coverage_exclude_each_other(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coverage_is_within_half_a_sample_of_alpha),
+        cmocka_unit_test(so_it_is_in_mirrored_copies),
         cmocka_unit_test(one_sample_is_the_alpha_test),
         cmocka_unit_test(the_first_samples_stay_nearest_to_the_centre),
         cmocka_unit_test(groups_and_alpha_to_coverage_exclude_each_other),
