@@ -181,9 +181,11 @@ static bool repeats(const SearchScene *made, int texture, int axis) {
         return true;
     }
     const DipTextureDef *def = &made->scene.textures[texture];
-    return (axis ? def->wrap_v : def->wrap_u) == DIP_WRAP_REPEAT;
+    const DipWrap wrap = axis ? def->wrap_v : def->wrap_u;
+    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
 }
 
+// Adds even numbers, which move mirrored textures by whole pairs of copies.
 static bool add_whole_numbers(SearchScene *made) {
     bool any = false;
     for (int m = 0; m < made->scene.def.mesh_count; m++) {

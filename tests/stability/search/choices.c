@@ -12,6 +12,7 @@ void choices_begin(Choices *choices, uint64_t seed) {
     choices->cursor = 0;
     choices->part_count = 0;
     choices->recorded = false;
+    choices->mirrored = false;
     choices->random = (Random){seed};
 }
 

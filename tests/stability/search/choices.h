@@ -31,6 +31,7 @@ typedef struct Choices {
     int count;     // numbers in the sequence
     int cursor;    // index of the number that is read next
     bool recorded; // true: read `values`; false: draw new numbers from `random`
+    bool mirrored; // true: new scenes have mirrored textures
     Random random;
     ChoicesPart parts[CHOICES_MAX_PARTS];
     int part_count;

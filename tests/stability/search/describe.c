@@ -28,9 +28,12 @@ static void describe_view(const SearchScene *made, FILE *out) {
 static void describe_texture(const SearchScene *made, const char *use, int index, FILE *out) {
     if (index != DIP_NO_TEXTURE) {
         const DipTextureDef *texture = &made->scene.textures[index];
-        fprintf(out, ", %s of %dx%d texels%s%s%s", use, texture->width, texture->height,
-                texture->wrap_u == DIP_WRAP_CLAMP ? ", u clamped" : "",
-                texture->wrap_v == DIP_WRAP_CLAMP ? ", v clamped" : "",
+        static const char *const wraps[] = {
+            [DIP_WRAP_CLAMP] = "clamped", [DIP_WRAP_MIRROR] = "mirrored", [DIP_WRAP_BORDER] = NULL};
+        const char *u = wraps[texture->wrap_u];
+        const char *v = wraps[texture->wrap_v];
+        fprintf(out, ", %s of %dx%d texels%s%s%s%s%s", use, texture->width, texture->height,
+                u ? ", u " : "", u ? u : "", v ? ", v " : "", v ? v : "",
                 texture->encoding == DIP_ENCODING_LINEAR ? ", linear" : "");
     }
 }

@@ -1,5 +1,5 @@
 // Gives the materials of half of the scenes what model files may give them: metal and gloss,
-// blending, alphas of vertices, and lights.
+// blending, alphas of vertices, and lights. Mirrors axes of textures, if this was asked for.
 //
 // These choices come after all others of a scene, so that files of choices that were saved before
 // keep their meaning. The maps that are chosen here repeat, and are textures of their own.
@@ -147,7 +147,37 @@ static void choose_lights(SearchMaker *maker) {
     scene->def.lighting = &scene->lighting;
 }
 
-void search_finish_materials(SearchMaker *maker) {
+static bool is_of_sky(const DipTestScene *scene, int texture) {
+    for (int i = 0; i < scene->def.material_count; i++) {
+        if (scene->materials[i].surface == DIP_SURFACE_SKY &&
+            scene->materials[i].colour_texture == texture) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static DipWrap choose_wrap(SearchMaker *maker, DipWrap wrap) {
+    return choices_draw(maker->choices, 2) ? DIP_WRAP_MIRROR : wrap;
+}
+
+// Random scenes without mirrored textures draw no numbers here, and stay what they were before
+// textures could be mirrored. Files from before have no numbers left, so all of these are 0.
+static void choose_mirrors(SearchMaker *maker) {
+    DipTestScene *scene = &maker->made->scene;
+    if (!maker->choices->recorded && !maker->choices->mirrored) {
+        return;
+    }
+    for (int i = 0; i < scene->def.texture_count; i++) {
+        DipTextureDef *texture = &scene->textures[i];
+        if (!is_of_sky(scene, i)) {
+            texture->wrap_u = choose_wrap(maker, texture->wrap_u);
+            texture->wrap_v = choose_wrap(maker, texture->wrap_v);
+        }
+    }
+}
+
+static void finish_like_a_model(SearchMaker *maker) {
     DipTestScene *scene = &maker->made->scene;
     if (!choices_rarely(maker->choices, 2)) {
         return;
@@ -168,4 +198,9 @@ void search_finish_materials(SearchMaker *maker) {
     for (int i = 0; i < scene->def.material_count; i++) {
         scene->pbrs[i].scattering = scattering;
     }
+}
+
+void search_finish_materials(SearchMaker *maker) {
+    finish_like_a_model(maker);
+    choose_mirrors(maker);
 }

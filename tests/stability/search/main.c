@@ -19,6 +19,9 @@ static const char *const usage =
     "\n"
     "  --count N         Number of random scenes. The default is 0.\n"
     "  --seed S          Seed of the random scenes. The default is 1.\n"
+    "  --mirrored        Let random scenes have mirrored textures, too. Without this option, SEED "
+    "and\n"
+    "                    INDEX stand for the same scenes as before there were any.\n"
     "  --known FILE      A file with the random scenes that are known to be wrong, one SEED:INDEX\n"
     "                    at the beginning of each line. No other one may be wrong, and all of "
     "them\n"
@@ -35,6 +38,7 @@ typedef struct Options {
     int count;
     const char *known;
     uint64_t seed;
+    bool mirrored;
     const char *replay;
     const char *shrink;
     const char *save;
@@ -65,19 +69,20 @@ static void catch_crashes(void) {
 // --- scenes --------------------------------------------------------------------------------------
 
 // Draws new choices for the scene with this index.
-static void choose_scene(Choices *choices, uint64_t seed, uint64_t index) {
+static void choose_scene(Choices *choices, uint64_t seed, uint64_t index, bool mirrored) {
     static SearchScene scene;
     Random random = {seed ^ index * 0xd1342543de82ef95u};
     choices_begin(choices, random_u64(&random));
+    choices->mirrored = mirrored;
     search_scene_make(&scene, choices);
     dip_test_scene_free(&scene.scene);
     choices_rewind(choices);
 }
 
-static bool report(const char *what, const SearchFinding *finding) {
+static bool report(const char *what, bool mirrored, const SearchFinding *finding) {
     if (finding->check) {
-        printf("%s: %s: %s\n  replay: stability_search --replay %s\n", what, finding->check,
-               finding->text, what);
+        printf("%s: %s: %s\n  replay: stability_search%s --replay %s\n", what, finding->check,
+               finding->text, mirrored ? " --mirrored" : "", what);
         fflush(stdout);
     }
     return finding->check == NULL;
@@ -88,7 +93,7 @@ static bool check(const SearchBench *bench, Choices *choices, const char *what) 
     snprintf(crash_message, sizeof crash_message,
              "\nstability_search: crashed; replay: stability_search --replay %s\n", what);
     search_check(bench, choices, NULL, &finding);
-    return report(what, &finding);
+    return report(what, choices->mirrored, &finding);
 }
 
 // Reads the list of --known into a text that begins and ends with a line break. Returns NULL if it
@@ -142,7 +147,7 @@ static int search(const SearchBench *bench, const Options *options) {
     for (int i = 0; i < options->count; i++) {
         char what[64];
         snprintf(what, sizeof what, "%" PRIu64 ":%d", options->seed, i);
-        choose_scene(&choices, options->seed, (uint64_t)i);
+        choose_scene(&choices, options->seed, (uint64_t)i, options->mirrored);
         const bool wrong = !check(bench, &choices, what);
         failures += wrong;
         const bool listed = is_known(known, what);
@@ -164,7 +169,7 @@ static int search(const SearchBench *bench, const Options *options) {
 // --- one scene -----------------------------------------------------------------------------------
 
 // Loads the choices of SEED:INDEX or of a file.
-static bool load(Choices *choices, const char *what) {
+static bool load(Choices *choices, const char *what, bool mirrored) {
     char *colon = NULL;
     const uint64_t seed = strtoull(what, &colon, 10);
     if (colon == what || (*colon != ':' && *colon != '\0')) {
@@ -172,7 +177,7 @@ static bool load(Choices *choices, const char *what) {
     }
     char *end = colon;
     const uint64_t index = *colon == ':' ? strtoull(colon + 1, &end, 10) : 0;
-    choose_scene(choices, seed, index);
+    choose_scene(choices, seed, index, mirrored);
     return *end == '\0';
 }
 
@@ -201,7 +206,7 @@ static int treat_one(const SearchBench *bench, const Options *options) {
     static Choices choices;
     const char *what = options->shrink ? options->shrink : options->replay;
     SearchFinding finding;
-    if (!load(&choices, what)) {
+    if (!load(&choices, what, options->mirrored)) {
         fprintf(stderr, "stability_search: %s is no file of choices and no SEED:INDEX\n", what);
         return 2;
     }
@@ -262,10 +267,14 @@ static bool parse_value(const char *name, const char *value, Options *options) {
 
 static bool parse_options(int argc, char **argv, Options *options) {
     *options = (Options){.seed = 1, .threads = 3};
-    for (int i = 1; i < argc; i += 2) {
+    for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--help") == 0) {
             fputs(usage, stdout);
             exit(0);
+        }
+        if (strcmp(argv[i], "--mirrored") == 0) {
+            options->mirrored = true;
+            continue;
         }
         if (argv[i][0] != '-') {
             options->files = argv + i;
@@ -278,6 +287,7 @@ static bool parse_options(int argc, char **argv, Options *options) {
                     argv[i], usage);
             return false;
         }
+        i++;
     }
     return true;
 }
