@@ -10,7 +10,7 @@ enum {
     KEY_COLUMNS = 48,  // Width of a column of keys.
     LABEL_COLUMNS = 14,
     TITLE_COLUMNS = 24,
-    STEP_COLUMNS = 21 // Width of a step with its figures: "16 1.56x -.0107".
+    STEP_COLUMNS = 21 // Width of a step with its figures: "16 1.56x −.0107".
 };
 
 // --- times -------------------------------------------------------------------------------------

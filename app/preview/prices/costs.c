@@ -1,8 +1,8 @@
 // Reads a cost report, and turns its times and errors into texts.
 #include "app/preview/prices/costs.h"
 
+#include "app/preview/prices/price_text.h"
 #include "app/report/format/formats.h"
-#include "app/report/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +31,7 @@ static bool is_doubtful(const DipCostReport *report, const DipCostSweep *sweep, 
 static void make_step(DipCostsStep *step, const DipCostReport *report, const DipCostSweep *sweep,
                       int index) {
     const int row = sweep->rows[index];
-    char name[DIP_COST_TEXT], flip[DIP_NUMBER_BYTES];
+    char name[DIP_COST_TEXT], flip[DIP_STEP_NAME_BYTES];
     const double base_flip = flip_of(report, sweep->base);
     const bool is_base = row == sweep->base;
     dip_cost_step_text(report, sweep, row, name);
@@ -46,7 +46,7 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
     }
     const double shown = is_base ? base_flip : step->flip_change;
     if (!isnan(shown)) {
-        dip_flip_number(shown, !is_base, "-", flip);
+        dip_flip_text(shown, !is_base, flip);
         snprintf(step->flip, sizeof step->flip, "%.15s", flip);
     }
     snprintf(step->figures, sizeof step->figures, "%.14s%s%.15s", step->time,

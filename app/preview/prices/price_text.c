@@ -89,8 +89,14 @@ static const char *const explanations[DIP_SETTING_COUNT][DIP_MAX_STEPS] = {
                               "Each mip level of a colour texture shows as a flat colour."},
 };
 
+static const char minus[] = "\u2212"; // The sign of negative numbers in the window.
+
+void dip_panel_number(double value, int decimals, bool change, char text[DIP_STEP_NAME_BYTES]) {
+    dip_number_text(value, decimals, change, minus, text);
+}
+
 void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]) {
-    dip_ms_number(ms, trust == DIP_PRICE_TRUST_DOUBTFUL, budget_ms, "\u2212", text);
+    dip_ms_number(ms, trust == DIP_PRICE_TRUST_DOUBTFUL, budget_ms, minus, text);
 }
 
 void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_STEP_NAME_BYTES]) {
@@ -115,7 +121,7 @@ void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_ST
 }
 
 void dip_flip_text(double flip, bool change, char text[DIP_STEP_NAME_BYTES]) {
-    dip_flip_number(flip, change, "\u2212", text);
+    dip_flip_number(flip, change, minus, text);
 }
 
 void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) {
@@ -137,8 +143,8 @@ static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
     if (width <= price->without_ms) {
         const int decimals = width < 1.0 ? 2 : 1;
         char low[DIP_NUMBER_BYTES], high[DIP_NUMBER_BYTES];
-        dip_number_text(price->ms_low, decimals, true, "\u2212", low);
-        dip_number_text(price->ms_high, decimals, true, "\u2212", high);
+        dip_panel_number(price->ms_low, decimals, true, low);
+        dip_panel_number(price->ms_high, decimals, true, high);
         snprintf(text, size_bytes, "\nIts time is doubtful, between %s and %s ms: %s.", low, high,
                  why);
     } else {
@@ -147,8 +153,8 @@ static void format_doubt(const DipPrice *price, char *text, size_t size_bytes) {
 }
 
 static void format_price(const DipPrice *price, double budget_ms, char *text, size_t size_bytes) {
-    char digits[DIP_STEP_NAME_BYTES], flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "",
-                                      where[80] = "";
+    char digits[DIP_STEP_NAME_BYTES], low[DIP_STEP_NAME_BYTES], high[DIP_STEP_NAME_BYTES];
+    char flip[DIP_STEP_NAME_BYTES] = "", beside[64] = "", where[80] = "";
     text[0] = '\0';
     if (price->beside[0]) {
         snprintf(beside, sizeof beside, " beside %s", price->beside);
@@ -172,8 +178,11 @@ static void format_price(const DipPrice *price, double budget_ms, char *text, si
             format_doubt(price, text, size_bytes);
             break;
         }
-        snprintf(text, size_bytes, "\n%+.2f ms (%.2f to %.2f)%s%s%s%s, %s.", price->ms,
-                 price->ms_low, price->ms_high, flip[0] ? ", FLIP " : "", flip, beside, where,
+        dip_panel_number(price->ms, 2, true, digits);
+        dip_panel_number(price->ms_low, 2, true, low);
+        dip_panel_number(price->ms_high, 2, true, high);
+        snprintf(text, size_bytes, "\n%s ms (%s to %s)%s%s%s%s, %s.", digits, low, high,
+                 flip[0] ? ", FLIP " : "", flip, beside, where,
                  price->state == DIP_PRICE_ROUGH       ? "roughly measured just now"
                  : price->state == DIP_PRICE_PREDICTED ? "predicted"
                                                        : "measured");
@@ -189,7 +198,7 @@ static void format_price(const DipPrice *price, double budget_ms, char *text, si
 
 void dip_step_tip(DipSetting setting, int step, const DipPrice *price, double budget_ms,
                   const char *why, char text[DIP_STEP_TEXT_BYTES]) {
-    char cost[240];
+    char cost[320];
     format_price(price, budget_ms, cost, sizeof cost);
     snprintf(text, DIP_STEP_TEXT_BYTES, "%s: %s%s%.300s%s%s",
              dip_setting_info(setting)->labels[step], explanations[setting][step],

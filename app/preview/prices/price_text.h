@@ -13,6 +13,11 @@
 
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 
+// Writes a number as dip_number_text does (app/report/words.h), with the sign U+2212 if it is
+// negative. All negative numbers of the window and of the panel in characters have this sign: they
+// are written by this function, by dip_ms_text or by dip_flip_text.
+void dip_panel_number(double value, int decimals, bool change, char text[DIP_STEP_NAME_BYTES]);
+
 // Writes a time without its unit as dip_ms_number does (app/report/words.h): "8.4", or "8?" if it
 // is doubtful. Rounding never carries the time over the budget.
 void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP_STEP_NAME_BYTES]);

@@ -96,7 +96,7 @@ static void write_advised(DipUi *ui, const DipWindow *window, const DipCandidate
     dip_flip_text(advised->flip, false, flip);
     if (choice->base >= 0 && choice->candidates.list[choice->base].flip > 0.0) {
         const double base = choice->candidates.list[choice->base].flip;
-        dip_number_text(100.0 * (advised->flip / base - 1.0), 0, true, "\u2212", number);
+        dip_panel_number(100.0 * (advised->flip / base - 1.0), 0, true, number);
         write_line(ui, NOTE_SIZE, dip_style_soft, room, "FLIP %s, %s %% of the baseline's", flip,
                    number);
     } else {
@@ -230,7 +230,7 @@ static void declare_step(DipUi *ui, DipWindow *window, const DipCandidate *advis
         return;
     }
     dip_flip_text(to->flip - advised->flip, true, flip);
-    dip_number_text(to->time.value - advised->time.value, 1, true, "\u2212", number);
+    dip_panel_number(to->time.value - advised->time.value, 1, true, number);
     snprintf(text, sizeof text, "%s ms", number);
     dip_ui_label(ui, SIZE, up ? dip_style_gain : dip_style_worse, DIP_ALIGN_RIGHT, row, flip);
     dip_cut_right(&row, dip_ui_text_width(ui, SIZE, flip) + pad);

@@ -2,6 +2,7 @@
 // distribution of the map's values, or a key of the colours. Also draws a table of the whole frame,
 // and one of the pixel or the tile under the mouse or at the pinned pixel.
 #include "app/measure/metrics/flip.h"
+#include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/maps_tab_private.h"
 #include "app/preview/tools/map_colours.h"
 
@@ -273,7 +274,7 @@ enum { WORK_ROWS = sizeof work_rows / sizeof *work_rows };
 static void put_row(const Tab *tab, DipRect area, int index, const char *name, const char *format,
                     const double values[DIP_PANE_COUNT], Comparison comparison) {
     const int ends[DIP_PANE_COUNT] = {px(tab, 152), px(tab, 216)};
-    char text[24];
+    char text[32];
     area.y += px(tab, ROW * (index + 1));
     dip_ui_text(tab->ui, TEXT, dip_style_soft, DIP_ALIGN_LEFT, area.x, area.y, px(tab, 90), name);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
@@ -293,7 +294,9 @@ static void put_row(const Tab *tab, DipRect area, int index, const char *name, c
     } else if (fabs(change) <= 0.5) {
         snprintf(text, sizeof text, "%.0f %%", fabs(change));
     } else {
-        snprintf(text, sizeof text, "%s%.0f %%", change < 0.0 ? "\u2212" : "+", fabs(change));
+        char digits[DIP_STEP_NAME_BYTES];
+        dip_panel_number(change, 0, true, digits);
+        snprintf(text, sizeof text, "%s %%", digits);
         colour = change < 0.0 ? dip_style_gain : dip_style_worse;
     }
     dip_cut_left(&area, px(tab, 226));

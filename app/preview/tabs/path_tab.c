@@ -1,6 +1,7 @@
 // Declares the path tab: the choice of the path that the camera follows and of the animation that
 // the models play, the controls that fly the camera, and the editor of a path that the user makes
 // from keys (poses).
+#include "app/preview/prices/price_text.h"
 #include "app/preview/state/pilot.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -233,10 +234,13 @@ static void declare_edits(DipFlow *flow) {
 static void declare_key(DipFlow *flow, size_t index) {
     const DipPathEditor *editor = flow->window->state->editor;
     const double *position = editor->keys[index].position_world;
-    char text[16], tip[160];
+    char text[16], tip[160], at[3][DIP_STEP_NAME_BYTES];
+    for (int i = 0; i < 3; i++) {
+        dip_panel_number(position[i], 2, false, at[i]);
+    }
     snprintf(text, sizeof text, "%zu", index + 1);
-    snprintf(tip, sizeof tip, "Key %zu at %.2f, %.2f, %.2f m. Click: the camera goes there.",
-             index + 1, position[0], position[1], position[2]);
+    snprintf(tip, sizeof tip, "Key %zu at %s, %s, %s m. Click: the camera goes there.", index + 1,
+             at[0], at[1], at[2]);
     const DipRect rect = dip_flow_next(flow, dip_ui_px(flow->ui, KEY_WIDTH));
     if (!dip_rect_is_empty(rect) &&
         dip_ui_button(flow->ui, DIP_UI_ID(DIP_UI_PATH, ID_KEYS + index % MAX_SHOWN_KEYS), rect,

@@ -265,15 +265,12 @@ static void draw_entry(DipUi *ui, DipRect room, DipRect *rest, const char *name,
     if (fabs(ms) < 0.05) {
         return;
     }
-    snprintf(digits, sizeof digits, "%.1f", fabs(ms));
-    if (trust == DIP_PRICE_TRUST_DOUBTFUL) {
-        dip_ms_text(fabs(ms), trust, INFINITY, digits);
+    if (rest_of_sum) {
+        dip_panel_number(ms, 1, true, digits);
+    } else {
+        dip_ms_text(ms, trust, INFINITY, digits);
     }
-    snprintf(text, sizeof text, "%s %s%s", name,
-             ms < 0.0      ? "\u2212"
-             : rest_of_sum ? "+"
-                           : "",
-             digits);
+    snprintf(text, sizeof text, "%s %s", name, digits);
     const int width = swatch + gap + dip_ui_text_width(ui, NOTE_SIZE, text);
     if (width > rest->width && rest->x > room.x) {
         const int y = rest->y + dip_ui_px(ui, LEGEND_HEIGHT);
@@ -425,7 +422,8 @@ static void draw_comparison(DipUi *ui, const DipWindow *window, const DipPriceSu
     dip_ui_word(ui, NOTE_SIZE, dip_style_white, &line, dip_ui_px(ui, 9), text);
     const double change = 100.0 * (sum->flip / now.flip - 1.0);
     if (fabs(change) >= 0.5) {
-        snprintf(text, sizeof text, "%s%.0f %%", change < 0.0 ? "\u2212" : "+", fabs(change));
+        dip_panel_number(change, 0, true, from);
+        snprintf(text, sizeof text, "%s %%", from);
         dip_ui_word(ui, NOTE_SIZE, change < 0.0 ? dip_style_gain : dip_style_worse, &line, 0, text);
     }
 }

@@ -141,9 +141,9 @@ static void steps_show_their_time_and_change_of_flip(void **state) {
     assert_memory_equal(row.steps[0].figures, "1x .", 4);
     const double change = flip_of(&report, 3) - flip_of(&report, 0);
     snprintf(expected, sizeof expected, "%.4f", fabs(change));
-    assert_memory_equal(row.steps[2].figures, "4.00x -", 7);
+    assert_memory_equal(row.steps[2].figures, "4.00x \u2212", 9);
     assert_true(change < 0.0);
-    assert_string_equal(row.steps[2].figures + 7, expected[0] == '0' ? expected + 1 : expected);
+    assert_string_equal(row.steps[2].figures + 9, expected[0] == '0' ? expected + 1 : expected);
     DipQuality quality = dip_quality_default();
     assert_true(dip_costs_is_at(&row, 0, &quality));
     assert_false(dip_costs_is_at(&row, 2, &quality));

@@ -507,6 +507,10 @@ static void doubtful_times_are_written_with_one_digit(void **state) {
     const DipPrice busy = {.state = DIP_PRICE_BASE, .ms = 50.16, .doubtful = true};
     dip_step_tip(DIP_SETTING_AA, 0, &busy, INFINITY, "", tip);
     assert_non_null(strstr(tip, "The base of all prices: 50? ms."));
+    const DipPrice gain = {
+        .state = DIP_PRICE_MEASURED, .ms = -1.5, .ms_low = -1.6, .ms_high = -1.4};
+    dip_step_tip(DIP_SETTING_AA, 1, &gain, INFINITY, "", tip);
+    assert_non_null(strstr(tip, "\u22121.50 ms (\u22121.60 to \u22121.40)"));
     dip_flip_text(-0.00001, true, tip);
     assert_string_equal(tip, ".0000"); // Not "-.0000".
     const DipPriceSum sum = {.state = DIP_PRICE_ROUGH, .ms = 12.0, .ms_high = 3864303.5};
