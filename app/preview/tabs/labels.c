@@ -23,7 +23,11 @@ DipPriceSum dip_pane_sum(const DipWindow *window, int pane) {
             return sum;
         }
     }
-    return (DipPriceSum){.state = DIP_PRICE_UNKNOWN, .ms = frame_ms, .base_ms = frame_ms};
+    return (DipPriceSum){.state = DIP_PRICE_UNKNOWN,
+                         .ms = frame_ms,
+                         .judged_by = DIP_TIME_MEAN,
+                         .judged_ms = frame_ms,
+                         .base_ms = frame_ms};
 }
 
 void dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum,
@@ -60,6 +64,29 @@ void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TI
                  !is_price && frames == 1 ? "one frame: " : "", rough ? DIP_ROUGH_MARK : "",
                  digits);
     }
+}
+
+bool dip_pane_is_over(const DipWindow *window, const DipPriceSum *sum) {
+    return sum->judged_ms > window->state->budget_ms &&
+           dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
+}
+
+void dip_pane_verdict(const DipWindow *window, const DipPriceSum *sum,
+                      char text[DIP_VERDICT_BYTES]) {
+    const double budget_ms = window->state->budget_ms;
+    const bool is_price = sum->state != DIP_PRICE_UNKNOWN, over = dip_pane_is_over(window, sum);
+    char ms[DIP_STEP_NAME_BYTES] = "", excess[DIP_STEP_NAME_BYTES];
+    text[0] = '\0';
+    if (dip_price_sum_trust(sum) == DIP_PRICE_TRUST_DOUBTFUL || (!is_price && !over)) {
+        return;
+    }
+    if (sum->judged_by != DIP_TIME_MEAN) {
+        dip_ms_text(sum->judged_ms, DIP_PRICE_TRUST_KNOWN, budget_ms, ms);
+    }
+    dip_ms_text(sum->judged_ms - budget_ms, DIP_PRICE_TRUST_KNOWN, 0.0, excess);
+    snprintf(text, DIP_VERDICT_BYTES, "%s%s%s%s%s%s",
+             is_price ? dip_time_kind_names[sum->judged_by] : "", ms[0] ? " " : "", ms,
+             is_price ? ": " : "", over ? excess : "within", over ? " over" : "");
 }
 
 // --- labels --------------------------------------------------------------------------------------

@@ -154,6 +154,15 @@ void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     } else if (typed_ms > 0.0) {
         dip_preview_set_budget(state, typed_ms);
     }
+    const DipPriceSum sum = dip_pane_sum(window, DIP_PANE_REQUESTED);
+    char verdict[DIP_VERDICT_BYTES];
+    dip_pane_verdict(window, &sum, verdict);
+    dip_cut_left(&rect, dip_ui_px(ui, 5));
+    if (dip_ui_text_width(ui, NOTE_SIZE, verdict) <= rect.width) {
+        dip_ui_word(ui, NOTE_SIZE,
+                    dip_pane_is_over(window, &sum) ? dip_style_worse : dip_style_soft, &rect, 0,
+                    verdict);
+    }
 }
 
 // --- the parts of the sum ------------------------------------------------------------------------
@@ -297,10 +306,10 @@ static void draw_legend(DipUi *ui, const DipPriceSum *sum, const Parts *parts, D
 
 // --- the sum -------------------------------------------------------------------------------------
 
-// Writes the note beside the sum. The note says that the sum is doubtful, how far it exceeds the
-// budget, or what its 95 % interval is; the note is empty if none of these applies. A note of the
-// excess or of the interval ends with " along the path" if the sum is the price of a path and not
-// of the picture in view, or with the size of the report's picture (dip_pane_time_scope).
+// Writes the note beside the sum. The note says that the sum is doubtful, or what its 95 % interval
+// is; the note is empty if neither applies. A note of the interval ends with " along the path" if
+// the sum is the price of a path and not of the picture in view, or with the size of the report's
+// picture (dip_pane_time_scope).
 static void format_note(const DipWindow *window, const DipPriceSum *sum, char note[96]) {
     const double budget_ms = window->state->budget_ms;
     char from[DIP_STEP_NAME_BYTES], to[DIP_STEP_NAME_BYTES], scope[DIP_PANE_SCOPE_BYTES];
@@ -312,10 +321,6 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
         } else {
             snprintf(note, 96, "doubtful: its times differ too much");
         }
-    } else if (sum->ms > budget_ms) {
-        dip_ms_text(sum->ms - budget_ms, DIP_PRICE_TRUST_KNOWN, 0.0, from);
-        dip_budget_ms_text(budget_ms, to);
-        snprintf(note, 96, "%s over %s%s", from, to, scope);
     } else if (sum->ms_high > sum->ms_low) {
         dip_ms_text(sum->ms_low, DIP_PRICE_TRUST_KNOWN, budget_ms, from);
         dip_ms_text(sum->ms_high, DIP_PRICE_TRUST_KNOWN, budget_ms, to);
@@ -326,9 +331,7 @@ static void format_note(const DipWindow *window, const DipPriceSum *sum, char no
 // Draws the sum and a note beside it. If room is short, the letters of the sum shrink until the sum
 // fits, but not below the size of the note's letters. A note that does not fit whole is left out.
 static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum, DipRect rect) {
-    const bool over =
-        sum->ms > window->state->budget_ms && dip_price_sum_trust(sum) != DIP_PRICE_TRUST_DOUBTFUL;
-    const DipColour colour = over ? dip_style_worse : dip_style_accent;
+    const DipColour colour = dip_pane_is_over(window, sum) ? dip_style_worse : dip_style_accent;
     char text[DIP_PANE_TIME_BYTES], note[96];
     int size = SUM_SIZE;
     dip_pane_time_text(window, DIP_PANE_REQUESTED, text);
@@ -340,7 +343,7 @@ static void draw_sum(DipUi *ui, const DipWindow *window, const DipPriceSum *sum,
     dip_ui_word(ui, size, colour, &rect, dip_ui_px(ui, 9), text);
     dip_cut_bottom(&rect, dip_ui_px(ui, 4));
     if (dip_ui_text_width(ui, NOTE_SIZE, note) <= rect.width) { // The whole note fits.
-        dip_ui_line(ui, NOTE_SIZE, over ? dip_style_worse : dip_style_soft,
+        dip_ui_line(ui, NOTE_SIZE, dip_style_soft,
                     &(DipRect){rect.x, dip_rect_bottom(rect) - dip_ui_line_height(ui, NOTE_SIZE),
                                rect.width, 0},
                     "%s", note);

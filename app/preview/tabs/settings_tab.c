@@ -122,28 +122,32 @@ static void declare_medium(DipUi *ui, DipWindow *window, DipRect body) {
 
 // --- a narrow or low tab -------------------------------------------------------------------------
 
-// Declares the foot of a narrow or low tab: the sum of prices, the button Apply, and a button that
-// exchanges the list of settings for presets, Undo and Copy. more: the presets, Undo and Copy show
-// now.
+// Declares the foot of a narrow or low tab: the time that is compared with the target, with the
+// name of its kind unless it is the mean, the button Apply, and a button that exchanges the list of
+// settings for presets, Undo and Copy. more: the presets, Undo and Copy show now.
 static void declare_foot(DipUi *ui, DipWindow *window, DipRect foot, bool more) {
     const int pad = dip_ui_px(ui, 4);
     const double budget_ms = window->state->budget_ms;
     const DipPriceSum sum = dip_pane_sum(window, DIP_PANE_REQUESTED);
     const DipPriceTrust trust = dip_price_sum_trust(&sum);
-    const bool over = sum.ms > budget_ms && trust != DIP_PRICE_TRUST_DOUBTFUL;
-    char text[DIP_STEP_NAME_BYTES], of[DIP_NUMBER_BYTES + 8], budget[DIP_NUMBER_BYTES];
+    const bool is_mean = sum.judged_by == DIP_TIME_MEAN;
+    const char *kind = dip_time_kind_names[sum.judged_by];
+    char text[DIP_STEP_NAME_BYTES], of[DIP_NUMBER_BYTES + 16], budget[DIP_NUMBER_BYTES];
     DipRect rest = dip_rect_inset(foot, pad, pad);
     const DipRect apply = dip_cut_right(&rest, dip_ui_px(ui, 52));
     dip_cut_right(&rest, pad);
     const DipRect other = dip_cut_right(&rest, dip_ui_px(ui, 30));
     rest.y = foot.y;
     rest.height = foot.height;
-    dip_ms_text(sum.ms, trust, budget_ms, text);
-    dip_ui_word(ui, 13, over ? dip_style_worse : dip_style_accent, &rest, pad, text);
+    dip_ms_text(sum.judged_ms, trust, budget_ms, text);
+    dip_ui_word(ui, 13, dip_pane_is_over(window, &sum) ? dip_style_worse : dip_style_accent, &rest,
+                pad, text);
     dip_budget_ms_text(budget_ms, budget);
-    snprintf(of, sizeof of, "of %s ms", budget);
+    snprintf(of, sizeof of, "%s%sof %s ms", is_mean ? "" : kind, is_mean ? "" : " ", budget);
     if (dip_ui_text_width(ui, 11, of) <= rest.width - pad) {
         dip_ui_label(ui, 11, dip_style_soft, DIP_ALIGN_LEFT, rest, of);
+    } else if (!is_mean) {
+        dip_ui_label(ui, 11, dip_style_soft, DIP_ALIGN_LEFT, rest, kind);
     }
     if (dip_ui_button(ui, DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_MORE), other, "\u2026",
                       more ? DIP_UI_CHOSEN : DIP_UI_PLAIN,

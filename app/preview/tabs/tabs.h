@@ -101,6 +101,16 @@ void dip_pane_time_scope(const DipWindow *window, const DipPriceSum *sum,
 // known.
 void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TIME_BYTES]);
 
+// Returns whether a time of dip_pane_sum is over the target. A doubtful time never is.
+bool dip_pane_is_over(const DipWindow *window, const DipPriceSum *sum);
+
+// Writes which time is compared with the target, its value if it is not the time that
+// dip_pane_time_text writes, and the result: "p95 17.9: 1.2 over", "mean: within". Writes "1.2
+// over" or nothing if the time is not a price, and nothing if it is doubtful.
+enum { DIP_VERDICT_BYTES = 64 };
+void dip_pane_verdict(const DipWindow *window, const DipPriceSum *sum,
+                      char text[DIP_VERDICT_BYTES]);
+
 // --- the settings' tab ----------------------------------------------------------------------
 
 // Ids of the controls in the settings tab. The id of a setting's control is DIP_ID_FIRST_SETTING
@@ -142,7 +152,8 @@ void dip_setting_buttons_declare(DipUi *ui, DipWindow *window, DipRect rect);
 void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // Declares two number fields for the target that advised settings must reach: frames per second,
-// and the same target as milliseconds per frame (the budget).
+// and the same target as milliseconds per frame (the budget). Writes dip_pane_verdict of the
+// requested pane beside them if there is room.
 void dip_target_declare(DipUi *ui, DipWindow *window, DipRect rect);
 
 // Draws the price of the requested settings: the sum of prices, its parts against the budget, and

@@ -77,6 +77,10 @@ typedef struct DipPriceSum {
     double ms;
     double ms_low;
     double ms_high;
+    // The time that is compared with a budget, and its kind: that of DipCostOptions.budget_of, if
+    // the report knows it of this combination, and the mean (ms) otherwise.
+    DipTimeKind judged_by;
+    double judged_ms;
     bool has_flip;
     double flip;
     double base_ms;

@@ -91,6 +91,25 @@ static DipPriceWhole whole_of(const DipPriceView *view, const DipQuality *normal
     return add_parts(view, &whole, &from, parts);
 }
 
+// Finds the time that is compared with a budget. sum->ms must be known.
+static void find_judged_time(const DipPriceView *view, const DipPriceEntry *entry,
+                             DipPriceSum *sum) {
+    const DipCostReport *report = view->report;
+    const DipTimeKind kind = report->options.budget_of;
+    sum->judged_by = DIP_TIME_MEAN;
+    sum->judged_ms = sum->ms;
+    if (!entry || dip_cost_is_view(report)) {
+        return;
+    }
+    if (entry->row >= 0 && dip_cost_is_timed(report, entry->row)) {
+        sum->judged_by = kind;
+        sum->judged_ms = dip_candidate_of_row(report, entry->row, kind).time.value;
+    } else if (entry->row < 0 && kind == DIP_TIME_P95) {
+        sum->judged_by = kind;
+        sum->judged_ms = report->predicted.list[entry->prediction].p95_ms;
+    }
+}
+
 DipPriceSum dip_price_sum(const DipPriceView *view, const DipQuality *quality) {
     const DipQuality normal = dip_price_normal(&view->base, quality);
     const DipPriceWhole alone = dip_price_known(view, dip_price_find(view, 0, &view->base));
@@ -120,6 +139,7 @@ DipPriceSum dip_price_sum(const DipPriceView *view, const DipQuality *quality) {
     }
     sum.together_ms = whole.time.value - known_ms;
     sum.ms = known_ms + sum.together_ms; // So the parts add up to ms to the last bit.
+    find_judged_time(view, dip_price_find(view, 0, &normal), &sum);
     return sum;
 }
 
