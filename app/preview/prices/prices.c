@@ -254,7 +254,7 @@ bool dip_prices_source(const DipPrices *prices, int width, int height, char *out
                 ? "Prices: not measured yet. They are measured while the camera rests."
             : dip_prices_are_doubtful(prices)
                 ? "Prices: measured here while the machine was too busy, so times are doubtful."
-                : "Prices: measured here, in this picture, a few frames each (rough).");
+                : "Prices: measured here, a few frames each (rough).");
         return false;
     }
     const DipCostReport *report = dip_price_view_report(prices->read);

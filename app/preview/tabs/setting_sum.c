@@ -448,7 +448,8 @@ static void draw_source(DipUi *ui, const DipWindow *window, const Source *source
                                    sizeof settings);
         dip_ui_line(ui, NOTE_SIZE, dip_style_white, &room, "%s", settings);
     }
-    if (!source->warns) {
+    if (!source->warns && dip_ui_text_block_height(ui, SMALL_SIZE, room.width, source->text) <=
+                              room.height) { // The whole text fits.
         dip_ui_text_block(ui, SMALL_SIZE, dip_style_dim, room, source->text);
     }
 }

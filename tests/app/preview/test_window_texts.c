@@ -1,4 +1,5 @@
-// Tests of the texts that the window shows: which time is compared with the target.
+// Tests of the texts that the window shows: which time is compared with the target, and that no
+// sentence loses its last words.
 #include "tests/app/cost/made_report.h"
 #include "tests/app/preview/made_live.h"
 #include "tests/app/preview/shown_texts.h"
@@ -113,10 +114,35 @@ static void the_target_names_the_time_that_is_judged(void **unused) {
     dip_cost_report_free(&report);
 }
 
+// Where live prices come from is said whole or not at all, whatever the room is and whatever else
+// is said there.
+static void the_source_of_live_prices_is_whole(void **unused) {
+    (void)unused;
+    static const char *const progress[] = {"", "times: 12 steps left, 4 s",
+                                           "times: 12 steps left, 4 s; errors: the converged "
+                                           "picture is 40 % drawn"};
+    int shown = 0;
+    dip_made_live(prices, "aa=none", 6.7, 0.01, 0.05);
+    for (int i = 0; i < 3; i++) {
+        dip_prices_set_progress(prices, progress[i]);
+        for (int width = 600; width <= 1920; width += 13) {
+            draw(width, 720);
+            if (dip_shown_text("Prices:", NULL)) {
+                assert_non_null(dip_shown_text("(rough).", NULL));
+                shown++;
+            }
+        }
+        draw(1282, 720);
+        assert_true(i == 2 || dip_shown_text("(rough).", NULL));
+    }
+    assert_true(shown > 100);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_target_names_the_time_that_is_judged, set_up,
                                         tear_down),
+        cmocka_unit_test_setup_teardown(the_source_of_live_prices_is_whole, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
