@@ -62,7 +62,7 @@ enum {
 
 enum {
     DIP_COST_DIFF_MAX_NOTES = 32,
-    DIP_COST_DIFF_NOTE = 320,
+    DIP_COST_DIFF_NOTE = 640, // Room for the texts of two settings.
     // Number of stages of a frame, without the total.
     DIP_COST_DIFF_STAGES = DIP_BENCH_STAGE_total
 };

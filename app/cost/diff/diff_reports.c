@@ -156,32 +156,38 @@ static int find_row(const DipCostRow *wanted, const DipCostReport *b, int path, 
     return row;
 }
 
-// Adds a note that names the first NAMED_ROWS rows in `lonely`: rows on paths of both sides that
-// only this side has. If there are more, the note also tells how many there are in all. Adds none
-// if one side is a program that measured only some rows.
+// Appends a row's settings and path to a list of rows. Returns false, and leaves the list as it is,
+// if there is no room for the whole text.
+static bool name_row(const DipCostReport *report, const DipCostRow *row, char *list, size_t size) {
+    char settings[DIP_COST_TEXT];
+    const size_t used = strlen(list), room = size - used;
+    dip_cost_settings_text(&row->quality, settings);
+    const int length = snprintf(list + used, room, "%s%s on %s", used ? "; " : "", settings,
+                                report->paths[row->path]);
+    const bool fits = length >= 0 && (size_t)length < room;
+    list[fits ? used + (size_t)length : used] = '\0';
+    return fits;
+}
+
+// Adds a note that names the first rows in `lonely`, at most NAMED_ROWS: rows on paths of both
+// sides that only this side has. If there are more, the note also tells how many there are in all.
+// Adds none if one side is a program that measured only some rows.
 static void note_lonely(DipCostDiff *diff, const DipCostReport *report, const bool *lonely,
                         const char *side) {
-    char text[DIP_COST_DIFF_NOTE] = "";
-    int count = 0;
+    char text[DIP_COST_DIFF_NOTE - 48] = ""; // The rest of a note has less than 48 bytes.
+    int count = 0, named = 0;
     for (int r = 0; r < report->row_count; r++) {
-        if (!lonely[r]) {
-            continue;
-        }
-        if (count++ < NAMED_ROWS) {
-            char settings[DIP_COST_TEXT];
-            const size_t used = strlen(text);
-            dip_cost_settings_text(&report->rows[r].quality, settings);
-            snprintf(text + used, sizeof text - used, "%s%.60s on %s", used ? "; " : "", settings,
-                     report->paths[report->rows[r].path]);
-        }
+        const bool all_named = named == count && named < NAMED_ROWS;
+        count += lonely[r];
+        named += lonely[r] && all_named && name_row(report, &report->rows[r], text, sizeof text);
     }
-    if (diff->some_rows) {
+    if (diff->some_rows || count == 0) {
         return;
     }
-    if (count > NAMED_ROWS) {
-        dip_cost_diff_note(diff, "settings only in %s: %d rows: %.240s; ...", side, count, text);
-    } else if (count > 0) {
-        dip_cost_diff_note(diff, "settings only in %s: %.280s", side, text);
+    if (count > named) {
+        dip_cost_diff_note(diff, "settings only in %s: %d rows: %s; ...", side, count, text);
+    } else {
+        dip_cost_diff_note(diff, "settings only in %s: %s", side, text);
     }
 }
 

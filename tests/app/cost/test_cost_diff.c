@@ -292,6 +292,36 @@ static void rows_and_paths_that_do_not_match_are_named(void **state) {
     done();
 }
 
+// Notes name settings whole, however long their texts are. Settings that do not fit are counted.
+static void notes_do_not_cut_settings(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "aa=4,aaa=coverage,af=16,miplod=sharper,shadows=2048",
+        "taa=alternate,opt=standard,miplod=high-performance,scale=1/1.7,upscale=bicubic,post=fxaa,"
+        "sharpen=medium,shadows=1024,gi=off,mipdebug=on"};
+    char wanted[2 * DIP_COST_TEXT];
+    make();
+    for (int i = 0; i < 2; i++) {
+        assert_true(dip_quality_parse(texts[i], &b.rows[2 + i].quality, NULL));
+    }
+    compare();
+    snprintf(wanted, sizeof wanted, "settings only in B: %s on DEFAULT; %s on DEFAULT", texts[0],
+             texts[1]);
+    assert_true(has_note(wanted));
+    done();
+    make();
+    for (int i = 0; i < 6; i++) { // Two of these texts take 250 bytes, and all six do not fit.
+        DipQuality quality;
+        assert_true(dip_quality_parse(texts[1], &quality, NULL));
+        quality.step[DIP_SETTING_AF] = (uint8_t)(i % 5);
+        quality.step[DIP_SETTING_AA] = (uint8_t)(i / 5);
+        dip_made_combination(&b, &quality, 2.0, 0.01);
+    }
+    compare();
+    assert_true(has_note("settings only in B: 6 rows: ") && has_note("on DEFAULT; ..."));
+    done();
+}
+
 static void other_scenes_and_sizes_are_not_compared(void **state) {
     (void)state;
     for (int which = 0; which < 3; which++) {
@@ -487,6 +517,7 @@ int main(void) {
         cmocka_unit_test(counters_of_one_path_are_one_group),
         cmocka_unit_test(a_ratio_is_slower_beyond_the_luck_of_a_start),
         cmocka_unit_test(rows_and_paths_that_do_not_match_are_named),
+        cmocka_unit_test(notes_do_not_cut_settings),
         cmocka_unit_test(other_scenes_and_sizes_are_not_compared),
         cmocka_unit_test(other_machines_are_shown_but_not_judged),
         cmocka_unit_test(a_red_machine_gives_no_verdict),
