@@ -389,10 +389,11 @@ static inline int dip_cost_frame_count(const DipCostReport *report) {
     return dip_cost_is_view(report) ? 1 : report->options.rounds * report->options.timed_frames;
 }
 
-// Returns the report's time budgets as limits. Rounding must not carry a time over a budget
-// (words.h).
+// Returns the time budgets as limits for the times of the report. Rounding must not carry a time
+// over a budget. If the machine was too busy, the times are doubtful (words.h).
 static inline DipLimits dip_cost_budgets(const DipCostReport *report) {
-    const DipLimits limits = {report->options.budgets_ms, report->options.budget_count};
+    const DipLimits limits = {report->options.budgets_ms, report->options.budget_count,
+                              report->verdict == DIP_COST_RED};
     return limits;
 }
 

@@ -32,6 +32,10 @@ static double round_to(double value, int decimals) {
 void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
                         char text[DIP_NUMBER_BYTES]) {
     enum { MOST_DECIMALS = 3 };
+    const double size = fabs(value);
+    if (limits.doubtful) {
+        decimals = size < 0.05 ? 0 : -(int)floor(log10(fmin(fmax(size, 0.1), 1e9)));
+    }
     for (int i = 0; i < limits.count; i++) {
         while (decimals < MOST_DECIMALS &&
                !keeps_side(round_to(value, decimals), value, limits.values[i])) {
@@ -39,19 +43,14 @@ void dip_limited_number(double value, int decimals, DipLimits limits, const char
         }
     }
     dip_number_text(round_to(value, decimals), decimals > 0 ? decimals : 0, false, minus, text);
+    if (limits.doubtful) {
+        strcat(text, "?");
+    }
 }
 
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]) {
-    const double size = fabs(ms);
-    int decimals = 1;
-    if (doubtful) {
-        decimals = size < 0.05 ? 0 : -(int)floor(log10(fmin(fmax(size, 0.1), 1e9)));
-    }
-    dip_limited_number(ms, decimals, (DipLimits){&limit_ms, 1}, minus, text);
-    if (doubtful) {
-        strcat(text, "?");
-    }
+    dip_limited_number(ms, 1, (DipLimits){&limit_ms, 1, doubtful}, minus, text);
 }
 
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]) {

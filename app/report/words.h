@@ -17,18 +17,18 @@ void dip_number_text(double value, int decimals, bool change, const char *minus,
 typedef struct DipLimits {
     const double *values;
     int count;
+    bool doubtful; // The values beside these limits come from a machine that was too busy.
 } DipLimits;
 
 // Writes a value with this number of decimals, or with more, up to three, if rounding would carry
-// it over a limit. The text has no plus sign.
+// it over a limit ("16.66" rather than "16.7" beside 16.667). A doubtful value has one significant
+// digit and a question mark instead: "8?", "70?". It gets more digits, too, if a limit needs them
+// ("15?" rather than "10?" beside a limit of 12). The text has no plus sign.
 void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
                         char text[DIP_NUMBER_BYTES]);
 
-// Writes a time as it is shown beside a limit, such as the budget of a frame: "8.4". A doubtful
-// time has one significant digit and a question mark: "8?", "70?". If rounding would carry the time
-// over the limit, more digits are written, up to three after the point ("15?" rather than "10?"
-// beside a limit of 12, "16.66" rather than "16.7" beside 16.667). If there is no limit, `limit_ms`
-// is INFINITY. The text has no plus sign.
+// Writes a time with one decimal as dip_limited_number does, beside one limit, such as the budget
+// of a frame: "8.4", or "8?" if it is doubtful. If there is no limit, `limit_ms` is INFINITY.
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]);
 

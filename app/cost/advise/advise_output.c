@@ -302,7 +302,7 @@ static void print_chosen(DipForm *form, const Advised *advised, const DipCostCom
     dip_form_table(form, &(DipTable){.record = &line_record,
                                      .context = (void *)advised,
                                      .columns = "number; ms; flip; loss; other",
-                                     .limits = {&advice->all.budget_ms, 1},
+                                     .limits = {&advice->all.budget_ms, 1, false},
                                      .items = lines,
                                      .count = common->report_count});
 }
@@ -312,7 +312,7 @@ static void print_nothing(DipForm *form, const DipCostCommon *common, const DipA
     const DipCandidate *fastest = &common->candidates.list[advice->next];
     dip_cost_settings_text(&fastest->quality, settings);
     dip_fits_text(advice->next_fits, fits);
-    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1}, "-", ms);
+    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1, false}, "-", ms);
     dip_form_paragraph(form, NULL,
                        "No common combination surely fits. The fastest, %s, takes %s ms in report "
                        "%d and fits with %s.",

@@ -103,7 +103,7 @@ static void write_chosen(DipForm *form, const DipCostReport *report, const DipAd
     const DipCandidate *chosen = &candidates->list[advice->chosen];
     const DipEstimate time = dip_estimate_widen(&chosen->time, chosen->common_error);
     const double base = flip_of(report, report->base_rows[0]);
-    const DipLimits budget = {&advice->budget_ms, 1};
+    const DipLimits budget = {&advice->budget_ms, 1, false}; // Nothing doubtful is advised.
     char text[300], fits[DIP_NUMBER_BYTES], against[96] = "", ms[DIP_NUMBER_BYTES];
     char interval[DIP_CELL_BYTES], mean[DIP_NUMBER_BYTES];
     dip_cost_settings_text(&chosen->quality, text);
@@ -130,7 +130,7 @@ static void write_nothing(DipForm *form, const DipCandidates *candidates, const 
     char text[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
     const DipCandidate *fastest = &candidates->list[advice->next];
     dip_cost_settings_text(&fastest->quality, text);
-    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1}, "-", ms);
+    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1, false}, "-", ms);
     dip_fits_text(advice->next_fits, fits);
     dip_form_paragraph(form, NULL,
                        "Nothing that was measured surely fits. The fastest settings, %s, take %s "

@@ -589,6 +589,38 @@ static void long_settings_are_not_cut(void **state) {
     assert_string_equal(text, longest);
 }
 
+// The tables and the titles of a report from a busy machine write no time as if it were sure.
+static void doubtful_times_have_a_mark(void **state) {
+    (void)state;
+    enum { ROOM = 1 << 20 };
+    static char text[2][ROOM];
+    for (int busy = 0; busy < 2; busy++) {
+        DipCostReport report;
+        DipError err;
+        dip_made_report(&report, 16);
+        dip_made_times(&report, 3, 8.996); // No ratio and no limit of one is written as 9.00.
+        assert_true(dip_cost_estimate_times(&report, NULL));
+        report.verdict = busy ? DIP_COST_RED : DIP_COST_GREEN;
+        assert_true(dip_cost_choose(&report, NULL));
+        FILE *out = fmemopen(text[0], ROOM - 1, "w");
+        assert_non_null(out);
+        dip_cost_print(&report, out);
+        fclose(out);
+        assert_true(dip_cost_write_html(&report, NULL, "doubtful_times.html", &err));
+        FILE *in = fopen("doubtful_times.html", "rb");
+        assert_non_null(in);
+        text[1][fread(text[1], 1, ROOM - 1, in)] = '\0';
+        fclose(in);
+        remove("doubtful_times.html");
+        assert_int_equal(strstr(text[0], " 9.00 ") != NULL, !busy);
+        assert_int_equal(strstr(text[0], " 9? ") != NULL, busy);
+        assert_int_equal(strstr(text[1], ">9.00</td>") != NULL, !busy);
+        assert_int_equal(strstr(text[1], ">9?</td>") != NULL, busy);
+        assert_non_null(strstr(text[1], busy ? ": 9? ms" : ": 9.00 ms")); // A row's title.
+        dip_cost_report_free(&report);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(long_settings_are_not_cut),
@@ -607,6 +639,7 @@ int main(void) {
         cmocka_unit_test(json_without_a_date_is_read),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(csv_and_page_are_complete),
+        cmocka_unit_test(doubtful_times_have_a_mark),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
