@@ -28,24 +28,36 @@ static DipColour colour_of(DipMap map, float share) {
 
 // --- the scale -----------------------------------------------------------------------------------
 
+// Returns whether a pane's values in the map are known. Those of work are measured at rest, and
+// belong to the frame that rests.
+static bool knows_values(const Tab *tab, int pane) {
+    const DipErrorPictures *errors = tab->maps->errors;
+    return tab->tools->map == DIP_MAP_FLIP
+               ? errors && errors->flip[pane]
+               : tab->window->still && dip_maps_work(tab->maps, pane)->draws > 0;
+}
+
 // Counts a pane's values in the map, in CHART_BINS equal bins from 0 to `end`. The last bin also
 // counts the values beyond `end`. Returns whether the values are known.
 static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
     const DipMapWork *work = dip_maps_work(tab->maps, pane);
     const DipErrorPictures *errors = tab->maps->errors;
     memset(counts, 0, CHART_BINS * sizeof *counts);
+    if (!knows_values(tab, pane)) {
+        return false;
+    }
     if (tab->tools->map == DIP_MAP_FLIP) {
-        for (int i = 0; errors && errors->flip[pane] && i < DIP_ERROR_BINS; i++) {
+        for (int i = 0; i < DIP_ERROR_BINS; i++) {
             const int bin = (int)((i + 0.5) / DIP_ERROR_BINS / end * CHART_BINS);
             counts[dip_min(bin, CHART_BINS - 1)] += errors->spread[pane].bins[i];
         }
-        return errors && errors->flip[pane];
+        return true;
     }
-    for (int t = 0; work->draws && t < work->across * work->down; t++) {
+    for (int t = 0; t < work->across * work->down; t++) {
         const int bin = (int)(dip_map_value(work, tab->tools->map, t) / end * CHART_BINS);
         counts[dip_min(bin, CHART_BINS - 1)] += 1.0;
     }
-    return work->draws > 0;
+    return true;
 }
 
 // Returns the height of a bin in the chart, from 0 to 1. For the FLIP map, bins count pixels, and
@@ -163,6 +175,7 @@ static void brightness_buttons(const Tab *tab, DipRect rest) {
     }
 }
 
+// Draws a scale of the values of both panes or, while none of them is known, why.
 static void scale_legend(const Tab *tab, DipRect rest) {
     const char *title = tab->tools->map == DIP_MAP_FLIP        ? "FLIP error per pixel"
                         : tab->tools->map == DIP_MAP_TIME      ? "ms per tile of 64x64"
@@ -174,6 +187,15 @@ static void scale_legend(const Tab *tab, DipRect rest) {
     const double end = dip_maps_end(tab->maps, tab->tools);
     rest.width = dip_min(rest.width, px(tab, 320));
     put(tab, TEXT, dip_style_white, rest, 0, title);
+    if (!knows_values(tab, DIP_PANE_CURRENT) && !knows_values(tab, DIP_PANE_REQUESTED)) {
+        char room[80];
+        dip_cut_top(&rest, px(tab, ROW));
+        dip_ui_text_block(tab->ui, NOTE, dip_style_soft, rest,
+                          dip_maps_status(tab->maps, tab->tools->map, DIP_PANE_CURRENT,
+                                          tab->window->state->shows_gallery, tab->window->still,
+                                          room, sizeof room));
+        return;
+    }
     dip_ui_text(tab->ui, NOTE, dip_style_soft, DIP_ALIGN_RIGHT, dip_rect_right(rest),
                 rest.y + px(tab, 2), px(tab, LEGEND_WIDTH), flip ? "pixels, log scale" : "tiles");
     dip_cut_top(&rest, px(tab, ROW));

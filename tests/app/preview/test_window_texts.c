@@ -138,11 +138,36 @@ static void the_source_of_live_prices_is_whole(void **unused) {
     assert_true(shown > 100);
 }
 
+// While pictures move, no work is measured. The tab Maps then says so, and draws no scale.
+static void a_map_without_values_has_no_scale(void **unused) {
+    (void)unused;
+    bool whole = false;
+    state.tools.tab = DIP_TAB_MAPS;
+    state.tools.map = DIP_MAP_TIME;
+    state.tools.comparison = DIP_COMPARE_WIPE; // No words over the panes.
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) { // The maps have seen the panes' frames.
+        tools->maps.key.quality[p] = state.quality[p];
+    }
+    for (int i = 0; i < SIZES; i++) {
+        input.still = false;
+        draw(sizes[i][0], sizes[i][1]);
+        assert_non_null(dip_shown_text("ms per tile", NULL));
+        assert_non_null(dip_shown_text("Measured while the camera rests.", &whole));
+        assert_true(whole);
+        assert_null(dip_shown_text("Brightness", NULL));
+        input.still = true;
+        draw(sizes[i][0], sizes[i][1]);
+        assert_non_null(dip_shown_text("Measuring.", NULL));
+        assert_null(dip_shown_text("Brightness", NULL));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_target_names_the_time_that_is_judged, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(the_source_of_live_prices_is_whole, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_map_without_values_has_no_scale, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
