@@ -104,7 +104,7 @@ void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_ST
     char digits[DIP_STEP_NAME_BYTES];
     if (trust == DIP_PRICE_TRUST_UNKNOWN) {
         snprintf(text, DIP_STEP_NAME_BYTES, "%s",
-                 price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");
+                 price->needs_company ? "\u2013" : DIP_WAITING_MARK);
     } else if (price->state == DIP_PRICE_BASE) {
         snprintf(text, DIP_STEP_NAME_BYTES, "base");
     } else if (trust == DIP_PRICE_TRUST_ZERO) {
@@ -130,7 +130,7 @@ void dip_price_flip_text(const DipPrice *price, char text[DIP_STEP_NAME_BYTES]) 
         dip_flip_text(price->flip, price->state != DIP_PRICE_BASE, text);
     } else {
         snprintf(text, DIP_STEP_NAME_BYTES, "%s",
-                 price->needs_company ? "\u2013" : "\u00b7 \u00b7 \u00b7");
+                 price->needs_company ? "\u2013" : DIP_WAITING_MARK);
     }
 }
 

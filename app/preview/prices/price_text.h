@@ -11,6 +11,9 @@
 // The mark before rough times, which come from a few frames.
 #define DIP_ROUGH_MARK "\u2248 "
 
+// What stands in the place of a number or a picture that is not known yet.
+#define DIP_WAITING_MARK "\u00b7 \u00b7 \u00b7"
+
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 
 // Writes a number as dip_number_text does (app/report/words.h), with the sign U+2212 if it is

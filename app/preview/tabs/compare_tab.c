@@ -1,5 +1,6 @@
 // Declares the comparisons' tab: the choice of how the two pictures are compared, the options of
 // that comparison, and a strip of thumbnails of the camera path.
+#include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/compare.h"
 #include "app/preview/tools/strip.h"
@@ -187,6 +188,9 @@ static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect r
     dip_ui_fill(ui, rect, dip_style_well);
     if (thumbnail.picture.width) {
         dip_ui_picture(ui, rect, &thumbnail.picture, thumbnail.version);
+    } else if (!strip->failed) {
+        dip_ui_fill(ui, rect, dip_style_raised);
+        dip_ui_label(ui, TINY, dip_style_soft, DIP_ALIGN_CENTRE, rect, DIP_WAITING_MARK);
     }
     if (input.hovered || input.focused) {
         dip_ui_outline(ui, rect, 0, dip_ui_px(ui, 2), dip_style_soft);

@@ -57,7 +57,7 @@ void dip_pane_time_text(const DipWindow *window, int pane, char text[DIP_PANE_TI
     char digits[DIP_STEP_NAME_BYTES];
     dip_ms_text(sum.ms, trust, window->state->budget_ms, digits);
     if (trust == DIP_PRICE_TRUST_UNKNOWN) {
-        snprintf(text, DIP_PANE_TIME_BYTES, "\u00b7 \u00b7 \u00b7 ms");
+        snprintf(text, DIP_PANE_TIME_BYTES, DIP_WAITING_MARK " ms");
     } else {
         const bool rough = sum.state == DIP_PRICE_ROUGH && trust != DIP_PRICE_TRUST_DOUBTFUL;
         snprintf(text, DIP_PANE_TIME_BYTES, "%s%s%.20s ms",

@@ -4,6 +4,7 @@
 #include "tests/app/preview/made_live.h"
 #include "tests/app/preview/shown_texts.h"
 #include "app/preview/loop/view.h"
+#include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 
 #include <setjmp.h>
@@ -162,12 +163,26 @@ static void a_map_without_values_has_no_scale(void **unused) {
     }
 }
 
+static void thumbnails_that_wait_are_marked(void **unused) {
+    (void)unused;
+    state.tools.tab = DIP_TAB_COMPARE;
+    figures[0].frames = figures[1].frames = 30; // The panes' own times are known.
+    for (int i = 0; i < SIZES; i++) {
+        draw(sizes[i][0], sizes[i][1]);
+        assert_non_null(dip_shown_text(DIP_WAITING_MARK, NULL));
+    }
+    tools->strip.failed = true;
+    draw(1282, 720);
+    assert_null(dip_shown_text(DIP_WAITING_MARK, NULL));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_target_names_the_time_that_is_judged, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(the_source_of_live_prices_is_whole, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_map_without_values_has_no_scale, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(thumbnails_that_wait_are_marked, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
