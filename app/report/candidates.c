@@ -120,7 +120,8 @@ bool dip_cost_choose(DipCostReport *report, DipError *err) {
         return false;
     }
     for (int r = first; r < report->row_count; r++) {
-        if (dip_cost_is_judged(report, r)) {
+        // A search keeps rows with the same pictures; only the simplest of them can be chosen.
+        if (dip_cost_is_judged(report, r) && dip_cost_simplest_row(report, r) == r) {
             all->list[all->count++] = dip_candidate_of_row(report, r, kind);
         }
     }

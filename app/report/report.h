@@ -369,6 +369,11 @@ bool dip_cost_at_floor(const DipCostReport *report, int row);
 // viewpoint. False if a viewpoint of either row has not been judged.
 bool dip_cost_same_pictures(const DipCostReport *report, int a, int b);
 
+// Returns the row that stands for a row. Of all combinations (from combined_first on) with the same
+// pictures, it is the base row, which all others are timed beside, or else the one with the fewest
+// settings off their defaults. If several have equally few, it is the first of them.
+int dip_cost_simplest_row(const DipCostReport *report, int row);
+
 // Makes combinations with the same pictures one row. (Where a setting changes nothing in a scene,
 // for example adaptive AA without alpha-clipped surfaces, several combinations draw the same
 // pictures.) The combination with the fewest settings off their defaults stays, and the others are

@@ -15,10 +15,7 @@ bool dip_cost_same_pictures(const DipCostReport *report, int a, int b) {
     return same;
 }
 
-// Returns the row that stands for the row `row`. Of all combinations with the same pictures, it is
-// the base row, which all others are timed beside, or else the one with the fewest settings off
-// their defaults. If several have equally few, it is the first of them.
-static int representative(const DipCostReport *report, int row) {
+int dip_cost_simplest_row(const DipCostReport *report, int row) {
     const int base = report->base_rows[0];
     if (base >= report->combined_first &&
         (row == base || dip_cost_same_pictures(report, row, base))) {
@@ -99,7 +96,7 @@ bool dip_cost_join_same_pictures(DipCostReport *report, DipError *err) {
         return dip_cost_out_of_memory(err);
     }
     for (int i = 0; i < count; i++) {
-        joined.stands[i] = representative(report, first + i);
+        joined.stands[i] = dip_cost_simplest_row(report, first + i);
     }
     report->row_count = first;
     for (int i = 0; i < count; i++) {

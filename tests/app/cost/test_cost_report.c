@@ -589,6 +589,43 @@ static void long_settings_are_not_cut(void **state) {
     assert_string_equal(text, longest);
 }
 
+// Of combinations with the same pictures, only the one with the fewest settings off their defaults
+// can be chosen, even if another one seems faster. In this scene, nothing casts a small shadow.
+static void settings_without_effect_are_not_chosen(void **state) {
+    (void)state;
+    static const struct {
+        const char *settings, *pictures;
+        double ms, flip;
+    } rows[] = {{"shadows=512", "plain", 0.9, 0.05},
+                {"aa=none", "plain", 1.0, 0.05},
+                {"aa=4", "smooth", 2.0, 0.03},
+                {"aa=4,shadows=512", "smooth", 1.9, 0.03},
+                {"aa=4,shadows=2048", "shady", 3.0, 0.01}};
+    DipCostReport report;
+    dip_made_report(&report, 16);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        DipQuality quality;
+        assert_true(dip_quality_parse(rows[i].settings, &quality, NULL));
+        const int row = dip_made_combination(&report, &quality, rows[i].ms, rows[i].flip);
+        for (int p = 0; p < report.options.places; p++) {
+            snprintf(report.rows[row].pictures[p], 33, "%s", rows[i].pictures);
+        }
+    }
+    assert_true(dip_cost_estimate_times(&report, NULL));
+    assert_true(dip_cost_choose(&report, NULL));
+    const DipCostChoice *choice = &report.choice;
+    assert_int_equal(choice->candidates.count, 3);
+    assert_int_equal(choice->front_count, 3);
+    for (int i = 0; i < 3; i++) {
+        static const char *const front[] = {"aa=none", "aa=4", "aa=4,shadows=2048"};
+        DipQuality quality;
+        assert_true(dip_quality_parse(front[i], &quality, NULL));
+        assert_true(
+            dip_quality_equal(&choice->candidates.list[choice->front[i]].quality, &quality));
+    }
+    dip_cost_report_free(&report);
+}
+
 // The tables and the titles of a report from a busy machine write no time as if it were sure.
 static void doubtful_times_have_a_mark(void **state) {
     (void)state;
@@ -639,6 +676,7 @@ int main(void) {
         cmocka_unit_test(json_without_a_date_is_read),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(csv_and_page_are_complete),
+        cmocka_unit_test(settings_without_effect_are_not_chosen),
         cmocka_unit_test(doubtful_times_have_a_mark),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
