@@ -1,5 +1,6 @@
 // dip_peer: compares our renderer with a renderer of Mesa on the same frames. See docs/peer.md.
 #include "app/files/whole_file.h"
+#include "app/measure/timing/processors.h"
 #include "tests/peer/measure.h"
 #include "tests/peer/options.h"
 #include "tests/peer/table.h"
@@ -131,6 +132,8 @@ static int judge(const Session *session) {
 
 static int run(Session *session) {
     DipError err = {0};
+    // Before either side starts threads, which inherit the processors of the thread that starts them.
+    dip_processors_confine((long)getpid(), session->options.threads);
     if (!open_session(session, &err)) {
         return complain(&err);
     }
