@@ -50,7 +50,9 @@ typedef struct DipDraw {
     DipVertexShader *vertex_shader;
     DipFragmentShader *fragment_shader; // may be NULL in a pass without colours
     DipFragmentShader *clip_shader;     // cuts away parts of the surface; NULL: cuts nothing away
-    int varying_count;                  // 0..DIP_MAX_VARYINGS
+    // 0..DIP_MAX_VARYINGS. Fragment shaders read the varyings from this number on as 0: that is no
+    // error, but a first reason to look for where colours are black.
+    int varying_count;
     // The clip shader gets only the first clip_varying_count varyings, 0..varying_count.
     int clip_varying_count;
     // Fragment shaders get the last value_only_varying_count varyings, 0..varying_count, without
@@ -98,8 +100,9 @@ typedef enum DipStore {
     DIP_STORE_REVERT,  // it is again what it was before the pass
 } DipStore;
 
-// The attachments of a pass beside its target. All 0 means what most passes need: colours are
-// cleared, and depths and stencil values are cleared and end with the pass.
+// The attachments of a pass beside its target. All 0 means what most passes need: colours, depths
+// and stencil values are cleared at the start, and depths and stencil values end with the pass. If
+// `depth` or `samples` is given, it keeps them after the pass.
 typedef struct DipAttachments {
     DipLoad colour_load;
     DipStore colour_store;

@@ -3,9 +3,11 @@
 //
 // A draw whose state is NULL or all 0 is *plain*: it is opaque, the nearest surface is shown, and
 // solid triangles are filled. Any other state makes a draw *ordered*. Ordered draws take effect in
-// submission order, triangle by triangle, in every sample; plain draws before an ordered draw are
-// finished first. The pipeline sorts nothing. The order is the caller's, and the picture is the
-// same for any number of threads.
+// submission order, triangle by triangle, in every sample. Plain draws before an ordered draw are
+// finished first. Plain draws after it are drawn after it: where they are nearer than the depths
+// there, they cover its colours, also those of blended draws that keep the depths behind them. The
+// pipeline sorts nothing. The order is the caller's, and the picture is the same for any number of
+// threads.
 //
 // Colours are merged in linear light, in 32-bit floats: blending computes the two products and
 // their sum with one rounding each. With targets of 8 bits per channel, the shader's colour is
@@ -166,8 +168,9 @@ typedef struct DipStencilFace {
 } DipStencilFace;
 
 // The stencil test, which comes before the depth test. A clip shader comes before both, so what it
-// cuts away changes no stencil value. An operation writes the bits of write_mask only. A test of
-// which all masks are 0 is refused.
+// cuts away changes no stencil value. An operation writes the bits of write_mask only: with a
+// write_mask of 0, none. With a read_mask of 0, a test compares 0 with 0. A test of which all masks
+// are 0 is refused.
 typedef struct DipStencil {
     bool enabled;
     uint8_t reference;

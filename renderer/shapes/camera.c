@@ -70,7 +70,8 @@ static bool find_axes(double axes[3][3], const double eye[3], const double targe
     }
     cross3(upwards, axes[2], axes[0]);
     if (!(dot3(axes[0], axes[0]) >= least_sine * least_sine)) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "up", "parallel to the view");
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "up",
+                             "parallel to the view, accepted any other direction");
     }
     normalise3(axes[0]);
     cross3(axes[2], axes[0], axes[1]);

@@ -6,6 +6,7 @@
 #include "renderer/pipeline/patch.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,9 +61,11 @@ static bool check_data(const DipMeshData *data, DipError *err) {
     }
     for (uint32_t i = 0; i < data->index_count; i++) {
         if (data->indices[i] >= data->vertex_count) {
-            return dip_error_set(err, DIP_ERROR_RANGE, data->name, 0, "indices",
-                                 "index %u of %u is out of range, accepted 0..%u", data->indices[i],
-                                 i, data->vertex_count - 1);
+            char key[32];
+            snprintf(key, sizeof key, "indices[%u]", i);
+            return dip_error_set(err, DIP_ERROR_RANGE, data->name, 0, key,
+                                 "%u, accepted 0..%u: the mesh has %u vertices", data->indices[i],
+                                 data->vertex_count - 1, data->vertex_count);
         }
     }
     return check_positions(data->name, data->attributes, (size_t)data->attribute_count,
@@ -297,8 +300,9 @@ DipMesh *dip_mesh_create_updatable(const DipMeshData *data, DipError *err) {
 bool dip_mesh_update(DipMesh *mesh, const float *attributes, DipError *err) {
     DIP_FP_MODE_SCOPE();
     if (!mesh->source) {
-        return dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "mesh",
-                             "a mesh that was not made to be updated");
+        return dip_error_set(
+            err, DIP_ERROR_CONFLICT, NULL, 0, "mesh",
+            "the mesh cannot be updated, accepted one of dip_mesh_create_updatable");
     }
     if (!check_positions(NULL, attributes, (size_t)mesh->attribute_count, mesh->source_count,
                          err)) {

@@ -167,7 +167,8 @@ static bool check_target(DipShaderGuard *guard, const DipTarget *target) {
                    pass->target.format == DIP_FORMAT_CALLER
                ? true
                : refuse(guard, DIP_ERROR_CONFLICT, "sample_target",
-                        "a shader reads the target that the pass draws");
+                        "a shader reads the target that the pass draws, accepted the target of an "
+                        "earlier pass");
 }
 
 static void sample_target(DipFragmentBatch *batch, const DipTarget *target, const float *u,
@@ -186,7 +187,8 @@ static bool check_shadow(DipShaderGuard *guard, const DipShadowMap *map) {
     }
     return map->depth != guard->pass->attachments.depth ||
            refuse(guard, DIP_ERROR_CONFLICT, "sample_shadow",
-                  "a shader reads the depths that the pass draws");
+                  "a shader reads the depths that the pass draws, accepted those of an earlier "
+                  "pass");
 }
 
 static void sample_shadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,
