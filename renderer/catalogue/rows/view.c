@@ -313,7 +313,7 @@ static const BadScene bad_scenes[] = {
     {"a texture coordinate that is not a number", "uv0", nan_coordinate},
     {"an infinite vertex colour", "colours_lin", infinite_vertex_colour},
     {"a normal that is not a number", "normals", nan_normal},
-    {"an index beyond the vertices", "indices", far_index},
+    {"an index beyond the vertices", "indices[2]", far_index},
     {"a texture that does not exist", "colour_texture", missing_texture},
 };
 

@@ -511,8 +511,8 @@ static void invalid_mesh_data_is_refused(void **state) {
         {2, 3, {0, 1, 2}, false, DIP_ERROR_RANGE, "attributes"},
         {DIP_MAX_ATTRIBUTES + 1, 3, {0, 1, 2}, false, DIP_ERROR_RANGE, "attributes"},
         {3, 2, {0, 1, 2}, false, DIP_ERROR_FORMAT, "indices"},
-        {3, 3, {0, 1, 3}, false, DIP_ERROR_RANGE, "indices"},
-        {3, 3, {0, 1, 0xffffffffu}, false, DIP_ERROR_RANGE, "indices"},
+        {3, 3, {0, 1, 3}, false, DIP_ERROR_RANGE, "indices[2]"},
+        {3, 3, {0, 1, 0xffffffffu}, false, DIP_ERROR_RANGE, "indices[2]"},
         {3, 3, {0, 1, 2}, true, DIP_ERROR_RANGE, "vertices"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
