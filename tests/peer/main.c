@@ -132,7 +132,8 @@ static int judge(const Session *session) {
 
 static int run(Session *session) {
     DipError err = {0};
-    // Before either side starts threads, which inherit the processors of the thread that starts them.
+    // Before either side starts threads, which inherit the processors of the thread that starts
+    // them.
     dip_processors_confine((long)getpid(), session->options.threads);
     if (!open_session(session, &err)) {
         return complain(&err);
