@@ -119,9 +119,9 @@ static void the_target_names_the_time_that_is_judged(void **unused) {
 // is said there.
 static void the_source_of_live_prices_is_whole(void **unused) {
     (void)unused;
-    static const char *const progress[] = {"", "times: 12 steps left, 4 s",
-                                           "times: 12 steps left, 4 s; errors: the converged "
-                                           "picture is 40 % drawn"};
+    static const char *const progress[] = {
+        "", "times: 12 steps left, 4 s",
+        "times: 12 steps left, 4 s; errors: the picture is 40 % drawn"};
     int shown = 0;
     dip_made_live(prices, "aa=none", 6.7, 0.01, 0.05);
     for (int i = 0; i < 3; i++) {
