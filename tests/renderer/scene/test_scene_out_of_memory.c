@@ -392,7 +392,8 @@ static void failed_change_of_a_setting_can_be_taken_back(void **state) {
                                                       .prepare = make_drawn_panes,
                                                       .run = change_and_draw,
                                                       .check = check_change,
-                                                      .finish = free_panes});
+                                                      .finish = free_panes,
+                                                      .short_count = 27});
         }
     }
     end(&fixture);
