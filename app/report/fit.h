@@ -13,7 +13,9 @@
 // comes from the exact counters of a frame and from the settings. No counter tells which reads miss
 // the processor's caches. Reads that miss them more often than others therefore have terms of their
 // own: reads that may use the largest mip levels (miplod=high-quality, sharp and sharper), reads of
-// uncompressed textures, and probes of advanced AF.
+// uncompressed textures, probes of advanced AF, and texels divided by the render scale. (The
+// smaller the drawn picture, the farther apart its pixels lie on a surface, and the fewer texels
+// they share.)
 enum { DIP_COST_MAX_TERMS = 64 }; // Greatest number of terms of one stage.
 
 int dip_cost_term_count(int stage);

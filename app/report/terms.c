@@ -73,6 +73,7 @@ typedef struct Work {
     X("batch of fragments", C(shader_batches))                                                     \
     X("texture probe", C(texture_probes) - C(clip_probes))                                         \
     X("texel fetched", C(texels_fetched))                                                          \
+    X("texel fetched, divided by the render scale", C(texels_fetched) / w->scale)                  \
     X("fragment with a normal map", C(fragments_normal_mapped))                                    \
     X("fragment of metal and gloss", C(fragments_pbr))                                             \
     X("fragment with a clear coat", C(fragments_coated))                                           \
