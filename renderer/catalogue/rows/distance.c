@@ -253,8 +253,8 @@ static void record(DipFragmentBatch *batch) {
 }
 
 // Makes a floor at y = 0 with one repeat of its texture per metre. Its texture coordinates are its
-// x and -z.
-static void make_floor(DipTestScene *scene, float half) {
+// x and -z, plus a whole number.
+static void make_floor(DipTestScene *scene, float half, float whole) {
     dip_test_scene_begin(scene);
     const int material = dip_test_scene_add_material(
         scene, dip_test_scene_add_texture(scene, DIP_TEST_NOISE, 16, 16));
@@ -262,7 +262,7 @@ static void make_floor(DipTestScene *scene, float half) {
                             (const float[]){2 * half, 0, 0}, (const float[]){0, 0, -2 * half},
                             2 * half, 2 * half);
     for (int i = 0; i < 8; i++) {
-        ((float *)(uintptr_t)scene->meshes[0].uv0)[i] -= half;
+        ((float *)(uintptr_t)scene->meshes[0].uv0)[i] += whole - half;
     }
 }
 
@@ -308,7 +308,7 @@ static bool draw_floor(StabilityRun *run, const DipTestScene *scene) {
     return drawn;
 }
 
-// Computes the exact coordinates of the floor at a position in pixels, without the offset.
+// Computes the exact coordinates of the floor at a position in pixels, but for the whole number.
 static void exact_coordinates(const DipPose *pose, long double x, long double y,
                               long double uv[2]) {
     const long double slope = 1.0L / sqrtl(3.0L); // the field of view is 60 degrees
@@ -370,12 +370,13 @@ static void turn(double yaw, double pitch, double roll, double q[4]) {
 
 static void measure_floor(StabilityRun *run) {
     Random random = {run->seed + 1};
-    const int count = stability_count(run, 3, 300, 20000);
+    const int count = stability_count(run, 12, 300, 20000);
     for (int n = 0; n < count; n++) {
         static DipTestScene scene;
         const double half = round(pow(10.0, random_real(&random, 1.0, 5.0)));
         const double above = pow(10.0, random_real(&random, -1.0, 0.5));
-        make_floor(&scene, (float)half);
+        const double whole = n % 2 ? 65536.0 : 0.0;
+        make_floor(&scene, (float)half, (float)whole);
         turn(random_real(&random, -3.1, 3.1), random_real(&random, 0.0, 0.6),
              random_real(&random, -0.3, 0.3), scene.pose.orientation);
         scene.pose.position_world[0] = random_real(&random, -0.9, 0.9) * half;
@@ -390,7 +391,8 @@ static void measure_floor(StabilityRun *run) {
             }
         }
         if (shown) {
-            stability_error(run, worst, "floor of %g m, eye %g m above it", 2.0 * half, above);
+            stability_error(run, worst, "floor of %g m, eye %g m above it, %g added", 2.0 * half,
+                            above, whole);
         }
         dip_test_scene_free(&scene);
     }
@@ -406,7 +408,7 @@ static const StabilityRow rows[] = {
      .measure = measure_moved},
     {.id = "N13",
      .promise = "A floor of 20 m to 200 km, seen from 0.1 m to 3 m above it, shows its texture in "
-                "place.",
+                "place, also where 65,536 is added to its coordinates.",
      .truth = "rays through the pixels, in `long double`",
      .unit = "pixels",
      .bound = 0.02,
