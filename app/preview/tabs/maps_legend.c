@@ -8,19 +8,10 @@
 
 // --- the scale -----------------------------------------------------------------------------------
 
-// Returns whether a pane's values in the map are known. Those of work are measured at rest, and
-// belong to the frame that rests.
-static bool knows_values(const Tab *tab, int pane) {
-    const DipErrorPictures *errors = tab->maps->errors;
-    return tab->tools->map == DIP_MAP_FLIP
-               ? errors && errors->flip[pane]
-               : tab->window->still && dip_maps_work(tab->maps, pane)->draws > 0;
-}
-
 // Counts a pane's values in the map, in CHART_BINS equal bins from 0 to `end`. The last bin also
 // counts the values beyond `end`. Returns whether the values are known.
 static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
-    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    const DipMapWork *work = known_work(tab, pane);
     const DipErrorPictures *errors = tab->maps->errors;
     memset(counts, 0, CHART_BINS * sizeof *counts);
     if (!knows_values(tab, pane)) {
@@ -87,13 +78,13 @@ static void draw_chart(const Tab *tab, DipRect area, double end) {
 
 double dip_maps_value_at(const Tab *tab, int pane, int x, int y) {
     const DipErrorPictures *errors = tab->maps->errors;
-    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    const DipMapWork *work = known_work(tab, pane);
     if (tab->tools->map == DIP_MAP_FLIP) {
         const bool known = errors && errors->flip[pane] && x < errors->width && y < errors->height;
         return known ? (double)errors->flip[pane][(size_t)y * (size_t)errors->width + (size_t)x]
                      : -1.0;
     }
-    return work->draws && x < work->width && y < work->height
+    return work && x < work->width && y < work->height
                ? dip_map_value(work, tab->tools->map, dip_map_tile(work, x, y))
                : -1.0;
 }

@@ -56,6 +56,21 @@ static inline bool described_pixel(const Tab *tab, int *x, int *y) {
            *y < frame->height;
 }
 
+// Returns what was measured for the map of the frame that a pane shows, or NULL if it is not known.
+// While pictures move it is not, because what was measured belongs to the frame that rested last.
+static inline const DipMapWork *known_work(const Tab *tab, int pane) {
+    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    const bool measured = tab->tools->map == DIP_MAP_MIPS ? work->mips != NULL : work->draws > 0;
+    return tab->window->still && measured ? work : NULL;
+}
+
+// Returns whether the values of the map are known for the frame that a pane shows.
+static inline bool knows_values(const Tab *tab, int pane) {
+    const DipErrorPictures *errors = tab->maps->errors;
+    return tab->tools->map == DIP_MAP_FLIP ? errors && errors->flip[pane]
+                                           : known_work(tab, pane) != NULL;
+}
+
 // Writes a line of text at the left side of an area. down: distance from the area's top, at scale
 // 1. Returns the width of the text in pixels.
 static inline int put(const Tab *tab, int size, DipColour colour, DipRect area, int down,

@@ -25,9 +25,15 @@ static const struct {
                  {DIP_MAP_SAMPLES, "mixed pixels", "%.0f", "mixed pixels", "%.0f"}};
 enum { WORK_ROWS = sizeof work_rows / sizeof *work_rows };
 
+// Returns whether a pane's unknown values will be known once pictures rest.
+static bool waits(const Tab *tab, int pane) {
+    return dip_maps_can_measure(tab->maps, tab->tools->map, pane, tab->window->state->shows_gallery,
+                                tab->window->still);
+}
+
 // Writes a row of a table: a name, both panes' values and their comparison. A value below 0 is not
-// known and is left out. With IN_PER_CENT, the colour says whether the change is better or worse; a
-// smaller value is better.
+// known: a mark stands in its place if the value waits, otherwise nothing. With IN_PER_CENT, the
+// colour says whether the change is better or worse; a smaller value is better.
 static void put_row(const Tab *tab, DipRect area, int index, const char *name, const char *format,
                     const double values[DIP_PANE_COUNT], Comparison comparison) {
     const int ends[DIP_PANE_COUNT] = {px(tab, 152), px(tab, 216)};
@@ -35,10 +41,12 @@ static void put_row(const Tab *tab, DipRect area, int index, const char *name, c
     area.y += px(tab, ROW * (index + 1));
     dip_ui_text(tab->ui, TEXT, dip_style_soft, DIP_ALIGN_LEFT, area.x, area.y, px(tab, 90), name);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        if (values[p] >= 0.0) {
-            snprintf(text, sizeof text, format, values[p]);
-            dip_ui_text(tab->ui, TEXT, dip_style_of_pane(p), DIP_ALIGN_RIGHT, area.x + ends[p],
-                        area.y, px(tab, LEGEND_WIDTH), text);
+        const bool known = values[p] >= 0.0;
+        snprintf(text, sizeof text, format, values[p]);
+        if (known || waits(tab, p)) {
+            dip_ui_text(tab->ui, TEXT, known ? dip_style_of_pane(p) : dip_style_dim,
+                        DIP_ALIGN_RIGHT, area.x + ends[p], area.y, px(tab, LEGEND_WIDTH),
+                        known ? text : DIP_WAITING_MARK);
         }
     }
     if (comparison == NOT_COMPARED || values[0] <= 0.0 || values[1] < 0.0) {
@@ -87,15 +95,15 @@ static void flip_table(const Tab *tab, DipRect area) {
     }
 }
 
-// Returns the sum of a map's values over a frame, in milliseconds or as a count; -1 if it is not
-// known.
+// Returns the sum of a map's values over a frame, in milliseconds or as a count; -1 if `work` is
+// NULL.
 static double sum_of(const DipMapWork *work, DipMap map) {
     double sum = 0.0;
-    for (int t = 0; work->draws && t < work->across * work->down; t++) {
+    for (int t = 0; work && t < work->across * work->down; t++) {
         const double pixels = map == DIP_MAP_TIME ? 1.0 : dip_map_tile_pixels(work, t);
         sum += pixels * dip_map_value(work, map, t);
     }
-    return work->draws ? sum : -1.0;
+    return work ? sum : -1.0;
 }
 
 static void work_table(const Tab *tab, DipRect area) {
@@ -103,14 +111,14 @@ static void work_table(const Tab *tab, DipRect area) {
     put(tab, TEXT, dip_style_white, area, 0, "Whole frame");
     for (int i = 0; i < WORK_ROWS; i++) {
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
-            values[p] = sum_of(dip_maps_work(tab->maps, p), work_rows[i].map);
+            values[p] = sum_of(known_work(tab, p), work_rows[i].map);
         }
         put_row(tab, area, i, work_rows[i].name, work_rows[i].format, values, BY_FACTOR);
     }
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const DipMapWork *work = dip_maps_work(tab->maps, p);
-        geometry_ms[p] = work->draws ? work->geometry_ms : -1.0;
-        mirrored_ms = work->draws ? fmax(mirrored_ms, work->mirrored_ms) : mirrored_ms;
+        const DipMapWork *work = known_work(tab, p);
+        geometry_ms[p] = work ? work->geometry_ms : -1.0;
+        mirrored_ms = work ? fmax(mirrored_ms, work->mirrored_ms) : mirrored_ms;
     }
     put_row(tab, area, WORK_ROWS, "before tiles", "%.2f ms", geometry_ms, BY_FACTOR);
     char text[96];
@@ -153,18 +161,19 @@ static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
 static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
     const DipMap map = tab->tools->map;
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
+        const DipMapWork *work = known_work(tab, p);
+        const bool inside = work && x < work->width && y < work->height;
         const int mip = dip_maps_mip_index(tab->maps, p, x, y);
-        const DipMapWork *work = dip_maps_work(tab->maps, p);
         const double flip = map == DIP_MAP_FLIP ? dip_maps_value_at(tab, p, x, y) : -1.0;
         char text[40] = "";
-        if (map == DIP_MAP_MIPS && mip >= 0) {
+        if (map == DIP_MAP_MIPS && inside && mip >= 0) {
             char size[DIP_MIP_TEXT_BYTES];
             dip_map_mip_text(mip, size);
             snprintf(text, sizeof text, "%s texels", size);
             put_swatch(tab, p, area, dip_map_mip_colour(mip), text);
-        } else if (map == DIP_MAP_MIPS) {
+        } else if (map == DIP_MAP_MIPS && inside) {
             put_swatch(tab, p, area, dip_style_well, "no mip colour");
-        } else if (map == DIP_MAP_SAMPLES && work->draws && x < work->width && y < work->height) {
+        } else if (map == DIP_MAP_SAMPLES && inside) {
             const bool mixed = work->mixed[(size_t)y * (size_t)work->width + (size_t)x];
             put_swatch(tab, p, area, map_colour(map, mixed),
                        mixed ? "they differ" : "all the same");
@@ -172,6 +181,8 @@ static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
             dip_map_format(flip, text, sizeof text);
             put_swatch(tab, p, area,
                        map_colour(map, (float)(flip / dip_maps_end(tab->maps, tab->tools))), text);
+        } else if (waits(tab, p)) {
+            put_swatch(tab, p, area, dip_style_well, DIP_WAITING_MARK);
         }
     }
 }
@@ -181,8 +192,8 @@ static void tile_values(const Tab *tab, DipRect area, int x, int y) {
     for (int i = 0; i < WORK_ROWS; i++) {
         const DipMap map = work_rows[i].map;
         for (int p = 0; p < DIP_PANE_COUNT; p++) {
-            const DipMapWork *work = dip_maps_work(tab->maps, p);
-            const bool known = work->draws && x < work->width && y < work->height;
+            const DipMapWork *work = known_work(tab, p);
+            const bool known = work && x < work->width && y < work->height;
             const int tile = known ? dip_map_tile(work, x, y) : 0;
             values[p] = known ? dip_map_value(work, map, tile) : -1.0;
             shares[p] = known ? values[p] * (100.0 / sum_of(work, map)) : -1.0;

@@ -114,6 +114,67 @@ static void a_map_without_values_has_no_scale(void **unused) {
     }
 }
 
+// Gives both panes' maps the work of a frame of one tile.
+static void make_work(void) {
+    enum { SIDE = 64 };
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        DipMapWork *work = &lone.tools->maps.panes[p];
+        *work = (DipMapWork){
+            .draws = DIP_MAP_DRAWS, .width = SIDE, .height = SIDE, .across = 1, .down = 1};
+        work->records = calloc(1, sizeof *work->records);
+        work->ms = calloc(1, sizeof *work->ms);
+        work->mixed = calloc(1, SIDE * SIDE);
+        work->mips = calloc(4, SIDE * SIDE);
+        assert_true(work->records && work->ms && work->mixed && work->mips);
+        const DipColour colour = dip_map_mip_colour(2); // 256 texels.
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            memcpy(work->mips + 4 * i, (uint8_t[]){colour.red, colour.green, colour.blue, 255}, 4);
+        }
+        work->ms[0] = 7.25;
+        work->geometry_ms = 3.75;
+    }
+}
+
+// The tables of the tab Maps show values of the frame in view. While pictures move, a mark stands
+// in the place of each value, and nothing does where no value will come.
+static void tables_of_maps_wait_while_pictures_move(void **unused) {
+    (void)unused;
+    static const struct {
+        DipMap map;
+        const char *value; // A value at the pinned pixel.
+    } maps[] = {{DIP_MAP_TIME, "7.25 ms"},
+                {DIP_MAP_FRAGMENTS, "7.25 ms"},
+                {DIP_MAP_SAMPLES, "all the same"},
+                {DIP_MAP_MIPS, "256 texels"},
+                {DIP_MAP_FLIP, DIP_WAITING_MARK}}; // There are no errors.
+    make_work();
+    lone.figures[0].frames = lone.figures[1].frames = 30; // The panes' own times are known.
+    lone.state.tools.tab = DIP_TAB_MAPS;
+    lone.state.tools.comparison = DIP_COMPARE_WIPE; // No words over the panes.
+    lone.state.tools.pinned = true;
+    lone.state.tools.x = lone.state.tools.y = 5;
+    for (int i = 0; i < 5; i++) {
+        const bool has_table = maps[i].map != DIP_MAP_MIPS && maps[i].map != DIP_MAP_FLIP;
+        const bool has_error = maps[i].map == DIP_MAP_FLIP;
+        lone.state.tools.map = maps[i].map;
+        lone.input.still = true;
+        draw(1920, 1080);
+        assert_non_null(dip_shown_text(maps[i].value, NULL));
+        assert_int_equal(dip_shown_text("3.75 ms", NULL) != NULL, has_table);
+        assert_int_equal(dip_shown_text(DIP_WAITING_MARK, NULL) != NULL, has_error);
+        lone.input.still = false;
+        draw(1920, 1080);
+        assert_int_equal(dip_shown_text(maps[i].value, NULL) != NULL, has_error);
+        assert_null(dip_shown_text("3.75 ms", NULL));
+        assert_string_equal(dip_shown_text(DIP_WAITING_MARK, NULL), DIP_WAITING_MARK);
+        lone.state.shows_gallery = true;
+        draw(1920, 1080);
+        assert_int_equal(dip_shown_text(DIP_WAITING_MARK, NULL) != NULL,
+                         maps[i].map == DIP_MAP_MIPS);
+        lone.state.shows_gallery = false;
+    }
+}
+
 static void thumbnails_that_wait_are_marked(void **unused) {
     (void)unused;
     lone.state.tools.tab = DIP_TAB_COMPARE;
@@ -133,6 +194,7 @@ int main(void) {
         TEXT_TEST(the_target_names_the_time_that_is_judged),
         TEXT_TEST(the_source_of_live_prices_is_whole),
         TEXT_TEST(a_map_without_values_has_no_scale),
+        TEXT_TEST(tables_of_maps_wait_while_pictures_move),
         TEXT_TEST(thumbnails_that_wait_are_marked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
