@@ -29,8 +29,8 @@ static double round_to(double value, int decimals) {
     return decimals < 0 ? power * round(value / power) : round(value * power) / power;
 }
 
-void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
-                        char text[DIP_NUMBER_BYTES]) {
+void dip_limited_number(double value, int decimals, bool change, DipLimits limits,
+                        const char *minus, char text[DIP_NUMBER_BYTES]) {
     enum { MOST_DECIMALS = 3 };
     const double size = fabs(value);
     if (limits.doubtful) {
@@ -42,7 +42,7 @@ void dip_limited_number(double value, int decimals, DipLimits limits, const char
             decimals++;
         }
     }
-    dip_number_text(round_to(value, decimals), decimals > 0 ? decimals : 0, false, minus, text);
+    dip_number_text(round_to(value, decimals), decimals > 0 ? decimals : 0, change, minus, text);
     if (limits.doubtful) {
         strcat(text, "?");
     }
@@ -50,7 +50,11 @@ void dip_limited_number(double value, int decimals, DipLimits limits, const char
 
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]) {
-    dip_limited_number(ms, 1, (DipLimits){&limit_ms, 1, doubtful}, minus, text);
+    dip_limited_number(ms, 1, false, (DipLimits){&limit_ms, 1, doubtful}, minus, text);
+}
+
+void dip_ratio_number(double ratio, bool doubtful, char text[DIP_NUMBER_BYTES]) {
+    dip_limited_number(ratio, 2, false, (DipLimits){.doubtful = doubtful}, "-", text);
 }
 
 void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_NUMBER_BYTES]) {

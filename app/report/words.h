@@ -20,17 +20,20 @@ typedef struct DipLimits {
     bool doubtful; // The values beside these limits come from a machine that was too busy.
 } DipLimits;
 
-// Writes a value with this number of decimals, or with more, up to three, if rounding would carry
-// it over a limit ("16.66" rather than "16.7" beside 16.667). A doubtful value has one significant
-// digit and a question mark instead: "8?", "70?". It gets more digits, too, if a limit needs them
-// ("15?" rather than "10?" beside a limit of 12). The text has no plus sign.
-void dip_limited_number(double value, int decimals, DipLimits limits, const char *minus,
-                        char text[DIP_NUMBER_BYTES]);
+// Writes a value as dip_number_text does, but with more decimals, up to three, if rounding would
+// carry it over a limit ("16.66" rather than "16.7" beside 16.667). A doubtful value has one
+// significant digit and a question mark instead: "8?", "70?". It gets more digits, too, if a limit
+// needs them ("15?" rather than "10?" beside a limit of 12).
+void dip_limited_number(double value, int decimals, bool change, DipLimits limits,
+                        const char *minus, char text[DIP_NUMBER_BYTES]);
 
 // Writes a time with one decimal as dip_limited_number does, beside one limit, such as the budget
 // of a frame: "8.4", or "8?" if it is doubtful. If there is no limit, `limit_ms` is INFINITY.
 void dip_ms_number(double ms, bool doubtful, double limit_ms, const char *minus,
                    char text[DIP_NUMBER_BYTES]);
+
+// Writes a ratio of two times with two decimals: "1.56", or "2?" if the times are doubtful.
+void dip_ratio_number(double ratio, bool doubtful, char text[DIP_NUMBER_BYTES]);
 
 // Writes a FLIP error, or a change of FLIP, with four decimals and without the zero before the
 // point: ".0354", "+.0010".

@@ -312,7 +312,8 @@ static void print_nothing(DipForm *form, const DipCostCommon *common, const DipA
     const DipCandidate *fastest = &common->candidates.list[advice->next];
     dip_cost_settings_text(&fastest->quality, settings);
     dip_fits_text(advice->next_fits, fits);
-    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1, false}, "-", ms);
+    dip_limited_number(fastest->time.value, 2, false, (DipLimits){&advice->budget_ms, 1, false},
+                       "-", ms);
     dip_form_paragraph(form, NULL,
                        "No common combination surely fits. The fastest, %s, takes %s ms in report "
                        "%d and fits with %s.",

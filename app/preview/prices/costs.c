@@ -40,9 +40,9 @@ static void make_step(DipCostsStep *step, const DipCostReport *report, const Dip
     if (is_base) {
         snprintf(step->time, sizeof step->time, "1x");
     } else if (dip_cost_is_timed(report, row) && dip_cost_is_timed(report, sweep->base)) {
-        const bool doubtful = is_doubtful(report, sweep, index);
-        snprintf(step->time, sizeof step->time, "%.*fx%s", doubtful ? 1 : 2,
-                 sweep->ratios[index].value, doubtful ? "?" : "");
+        char ratio[DIP_NUMBER_BYTES];
+        dip_ratio_number(sweep->ratios[index].value, is_doubtful(report, sweep, index), ratio);
+        snprintf(step->time, sizeof step->time, "%.14sx", ratio);
     }
     const double shown = is_base ? base_flip : step->flip_change;
     if (!isnan(shown)) {

@@ -9,7 +9,7 @@
 typedef struct DipCostsStep {
     DipQuality quality;
     char name[24];      // Name of the step, such as "4".
-    char time[16];      // Time relative to the baseline, "1.56x", or "1.6x?" if it is doubtful; ""
+    char time[16];      // Time relative to the baseline, "1.56x", or "2?x" if it is doubtful; ""
                         // if it is not known.
     char flip[16];      // Change of FLIP from the baseline, "−.0107"; "" if it is not known.
     char figures[32];   // `time` and `flip` with a blank between them: "1.56x −.0107".

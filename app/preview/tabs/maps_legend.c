@@ -1,46 +1,17 @@
-// Explains the chosen map in the maps' tab. Draws a scale of the map's colours with the
-// distribution of the map's values, or a key of the colours. Also draws a table of the whole frame,
-// and one of the pixel or the tile under the mouse or at the pinned pixel.
-#include "app/measure/metrics/flip.h"
-#include "app/preview/prices/price_text.h"
+// Explains the chosen map in the maps' tab: draws a scale of the map's colours with the
+// distribution of the map's values, or a key of the colours.
 #include "app/preview/tabs/maps_tab_private.h"
-#include "app/preview/tools/map_colours.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-// Writes a line of text at the left side of an area. down: distance from the area's top, at scale
-// 1. Returns the width of the text in pixels.
-static int put(const Tab *tab, int size, DipColour colour, DipRect area, int down,
-               const char *text) {
-    dip_ui_text(tab->ui, size, colour, DIP_ALIGN_LEFT, area.x, area.y + px(tab, down), area.width,
-                text);
-    return dip_ui_text_width(tab->ui, size, text);
-}
-
-// Returns a map's colour for a value. share: the value divided by the value at the scale's end.
-static DipColour colour_of(DipMap map, float share) {
-    uint8_t rgb[3];
-    (map == DIP_MAP_FLIP ? dip_magma : dip_cividis)(share, rgb);
-    return (DipColour){rgb[0], rgb[1], rgb[2], 255};
-}
-
 // --- the scale -----------------------------------------------------------------------------------
-
-// Returns whether a pane's values in the map are known. Those of work are measured at rest, and
-// belong to the frame that rests.
-static bool knows_values(const Tab *tab, int pane) {
-    const DipErrorPictures *errors = tab->maps->errors;
-    return tab->tools->map == DIP_MAP_FLIP
-               ? errors && errors->flip[pane]
-               : tab->window->still && dip_maps_work(tab->maps, pane)->draws > 0;
-}
 
 // Counts a pane's values in the map, in CHART_BINS equal bins from 0 to `end`. The last bin also
 // counts the values beyond `end`. Returns whether the values are known.
 static bool count_values(const Tab *tab, int pane, double end, double counts[CHART_BINS]) {
-    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    const DipMapWork *work = known_work(tab, pane);
     const DipErrorPictures *errors = tab->maps->errors;
     memset(counts, 0, CHART_BINS * sizeof *counts);
     if (!knows_values(tab, pane)) {
@@ -105,16 +76,15 @@ static void draw_chart(const Tab *tab, DipRect area, double end) {
     }
 }
 
-// Returns the map's value at a pixel of a pane, or -1 if it is not known.
-static double value_at(const Tab *tab, int pane, int x, int y) {
+double dip_maps_value_at(const Tab *tab, int pane, int x, int y) {
     const DipErrorPictures *errors = tab->maps->errors;
-    const DipMapWork *work = dip_maps_work(tab->maps, pane);
+    const DipMapWork *work = known_work(tab, pane);
     if (tab->tools->map == DIP_MAP_FLIP) {
         const bool known = errors && errors->flip[pane] && x < errors->width && y < errors->height;
         return known ? (double)errors->flip[pane][(size_t)y * (size_t)errors->width + (size_t)x]
                      : -1.0;
     }
-    return work->draws && x < work->width && y < work->height
+    return work && x < work->width && y < work->height
                ? dip_map_value(work, tab->tools->map, dip_map_tile(work, x, y))
                : -1.0;
 }
@@ -128,10 +98,10 @@ static void draw_scale(const Tab *tab, DipRect area, double end) {
         const int left = area.x + area.width * i / STEPS;
         const int right = area.x + area.width * (i + 1) / STEPS;
         dip_ui_fill(tab->ui, (DipRect){left, area.y, right - left, area.height},
-                    colour_of(tab->tools->map, (float)i / (STEPS - 1)));
+                    map_colour(tab->tools->map, (float)i / (STEPS - 1)));
     }
     for (int p = 0; described_pixel(tab, &x, &y) && p < DIP_PANE_COUNT; p++) {
-        const double value = value_at(tab, p, x, y);
+        const double value = dip_maps_value_at(tab, p, x, y);
         const double share = value < end ? value / end : 1.0;
         if (value >= 0.0) {
             dip_ui_fill(tab->ui,
@@ -244,9 +214,9 @@ static void mip_legend(const Tab *tab, DipRect area) {
 
 static void samples_legend(const Tab *tab, DipRect area) {
     put(tab, TEXT, dip_style_white, area, 0, "Samples of a pixel, per pixel");
-    draw_key(tab, area, ROW, colour_of(DIP_MAP_SAMPLES, 1.0f),
+    draw_key(tab, area, ROW, map_colour(DIP_MAP_SAMPLES, 1.0f),
              "Several surfaces, or one that is shaded several times.");
-    draw_key(tab, area, 2 * ROW, colour_of(DIP_MAP_SAMPLES, 0.0f),
+    draw_key(tab, area, 2 * ROW, map_colour(DIP_MAP_SAMPLES, 0.0f),
              "One surface, which is shaded once.");
     put(tab, NOTE, dip_style_soft, area, 3 * ROW + 4,
         "Without antialiasing a pixel has one sample, so none differ.");
@@ -269,218 +239,5 @@ void dip_maps_legend_block(const Tab *tab, DipRect area) {
     default:
         scale_legend(tab, area);
         break;
-    }
-}
-
-// --- tables --------------------------------------------------------------------------------------
-
-typedef enum Comparison { NOT_COMPARED, BY_FACTOR, IN_PER_CENT } Comparison;
-
-// The rows of the two tables of work. `name` and `format` are for the table of the whole frame;
-// `tile_name` and `tile_format` are for the table of one tile.
-static const struct {
-    DipMap map;
-    const char *name;
-    const char *format;
-    const char *tile_name;
-    const char *tile_format;
-} work_rows[] = {{DIP_MAP_TIME, "tiles, 1 core", "%.1f ms", "time", "%.2f ms"},
-                 {DIP_MAP_FRAGMENTS, "fragments", "%.0f", "fragments/px", "%.2f"},
-                 {DIP_MAP_PROBES, "probes", "%.0f", "probes/px", "%.2f"},
-                 {DIP_MAP_SAMPLES, "mixed pixels", "%.0f", "mixed pixels", "%.0f"}};
-enum { WORK_ROWS = sizeof work_rows / sizeof *work_rows };
-
-// Writes a row of a table: a name, both panes' values and their comparison. A value below 0 is not
-// known and is left out. With IN_PER_CENT, the colour says whether the change is better or worse; a
-// smaller value is better.
-static void put_row(const Tab *tab, DipRect area, int index, const char *name, const char *format,
-                    const double values[DIP_PANE_COUNT], Comparison comparison) {
-    const int ends[DIP_PANE_COUNT] = {px(tab, 152), px(tab, 216)};
-    char text[32];
-    area.y += px(tab, ROW * (index + 1));
-    dip_ui_text(tab->ui, TEXT, dip_style_soft, DIP_ALIGN_LEFT, area.x, area.y, px(tab, 90), name);
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        if (values[p] >= 0.0) {
-            snprintf(text, sizeof text, format, values[p]);
-            dip_ui_text(tab->ui, TEXT, dip_style_of_pane(p), DIP_ALIGN_RIGHT, area.x + ends[p],
-                        area.y, px(tab, LEGEND_WIDTH), text);
-        }
-    }
-    if (comparison == NOT_COMPARED || values[0] <= 0.0 || values[1] < 0.0) {
-        return;
-    }
-    const double change = 100.0 * (values[1] / values[0] - 1.0);
-    DipColour colour = dip_style_soft;
-    if (comparison == BY_FACTOR) {
-        snprintf(text, sizeof text, "x %.1f", values[1] / values[0]);
-    } else if (fabs(change) <= 0.5) {
-        snprintf(text, sizeof text, "%.0f %%", fabs(change));
-    } else {
-        char digits[DIP_STEP_NAME_BYTES];
-        dip_panel_number(change, 0, true, digits);
-        snprintf(text, sizeof text, "%s %%", digits);
-        colour = change < 0.0 ? dip_style_gain : dip_style_worse;
-    }
-    dip_cut_left(&area, px(tab, 226));
-    put(tab, TEXT, colour, area, 0, text);
-}
-
-static void flip_table(const Tab *tab, DipRect area) {
-    static const char *const names[] = {"FLIP, mean", "95 % below", "99 % below", "worst block",
-                                        "RMSE"};
-    enum { ROWS = sizeof names / sizeof *names };
-    const DipErrorPictures *errors = tab->maps->errors;
-    double values[ROWS][DIP_PANE_COUNT];
-    put(tab, TEXT, dip_style_white, area, 0, "This frame, all pixels");
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const bool known = errors && errors->flip[p];
-        const DipPaneError error = known ? errors->result.panes[p] : (DipPaneError){0};
-        const DipFlipTail tail = known ? errors->spread[p].tail : (DipFlipTail){0};
-        const double found[ROWS] = {error.flip, tail.p95, tail.p99, tail.worst, error.rmse_lin};
-        for (int i = 0; i < ROWS; i++) {
-            values[i][p] = known ? found[i] : -1.0;
-        }
-    }
-    for (int i = 0; i < ROWS; i++) {
-        put_row(tab, area, i, names[i], "%.4f", values[i], IN_PER_CENT);
-    }
-    if (errors) {
-        char text[80];
-        snprintf(text, sizeof text, "Truth: 2 x %d samples, noise %.4f", errors->result.samples / 2,
-                 errors->result.floor_rmse);
-        put(tab, NOTE, dip_style_dim, area, 6 * ROW + 4, text);
-    }
-}
-
-// Returns the sum of a map's values over a frame, in milliseconds or as a count; -1 if it is not
-// known.
-static double sum_of(const DipMapWork *work, DipMap map) {
-    double sum = 0.0;
-    for (int t = 0; work->draws && t < work->across * work->down; t++) {
-        const double pixels = map == DIP_MAP_TIME ? 1.0 : dip_map_tile_pixels(work, t);
-        sum += pixels * dip_map_value(work, map, t);
-    }
-    return work->draws ? sum : -1.0;
-}
-
-static void work_table(const Tab *tab, DipRect area) {
-    double values[DIP_PANE_COUNT], geometry_ms[DIP_PANE_COUNT], mirrored_ms = 0.0;
-    put(tab, TEXT, dip_style_white, area, 0, "Whole frame");
-    for (int i = 0; i < WORK_ROWS; i++) {
-        for (int p = 0; p < DIP_PANE_COUNT; p++) {
-            values[p] = sum_of(dip_maps_work(tab->maps, p), work_rows[i].map);
-        }
-        put_row(tab, area, i, work_rows[i].name, work_rows[i].format, values, BY_FACTOR);
-    }
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const DipMapWork *work = dip_maps_work(tab->maps, p);
-        geometry_ms[p] = work->draws ? work->geometry_ms : -1.0;
-        mirrored_ms = work->draws ? fmax(mirrored_ms, work->mirrored_ms) : mirrored_ms;
-    }
-    put_row(tab, area, WORK_ROWS, "before tiles", "%.2f ms", geometry_ms, BY_FACTOR);
-    char text[96];
-    snprintf(text, sizeof text,
-             mirrored_ms > 0.0 ? "Not in tiles: geometry, other passes %.1f ms"
-                               : "Not in the tiles: geometry.",
-             mirrored_ms);
-    put(tab, NOTE, dip_style_dim, area, 6 * ROW + 4, text);
-}
-
-void dip_maps_frame_block(const Tab *tab, DipRect area) {
-    if (tab->tools->map == DIP_MAP_FLIP) {
-        flip_table(tab, area);
-    } else if (is_work_map(tab->tools->map) || tab->tools->map == DIP_MAP_SAMPLES) {
-        work_table(tab, area);
-    }
-}
-
-// --- under the mouse -----------------------------------------------------------------------------
-
-// Writes a pane's value at a pixel, beside a square that has the value's colour and a border in the
-// pane's colour.
-static void put_swatch(const Tab *tab, int pane, DipRect area, DipColour colour,
-                       const char *value) {
-    const int side = px(tab, 22), gap = px(tab, 8);
-    const DipColour own = dip_style_of_pane(pane);
-    area.y += px(tab, ROW + 18 + 30 * pane);
-    area.height = side;
-    const DipRect square = dip_cut_left(&area, side);
-    dip_ui_fill(tab->ui, square, own);
-    const int edge = px(tab, 1), inner = side - px(tab, 2);
-    dip_ui_fill(tab->ui, (DipRect){square.x + edge, square.y + edge, inner, inner}, colour);
-    dip_cut_left(&area, gap);
-    area.width = px(tab, 160);
-    area.x += put(tab, 15, own, area, 2, value) + gap;
-    area.width = px(tab, 100);
-    put(tab, NOTE, dip_style_soft, area, 5, pane ? "requested" : "current");
-}
-
-static void pixel_values(const Tab *tab, DipRect area, int x, int y) {
-    const DipMap map = tab->tools->map;
-    for (int p = 0; p < DIP_PANE_COUNT; p++) {
-        const int mip = dip_maps_mip_index(tab->maps, p, x, y);
-        const DipMapWork *work = dip_maps_work(tab->maps, p);
-        const double flip = map == DIP_MAP_FLIP ? value_at(tab, p, x, y) : -1.0;
-        char text[40] = "";
-        if (map == DIP_MAP_MIPS && mip >= 0) {
-            char size[DIP_MIP_TEXT_BYTES];
-            dip_map_mip_text(mip, size);
-            snprintf(text, sizeof text, "%s texels", size);
-            put_swatch(tab, p, area, dip_map_mip_colour(mip), text);
-        } else if (map == DIP_MAP_MIPS) {
-            put_swatch(tab, p, area, dip_style_well, "no mip colour");
-        } else if (map == DIP_MAP_SAMPLES && work->draws && x < work->width && y < work->height) {
-            const bool mixed = work->mixed[(size_t)y * (size_t)work->width + (size_t)x];
-            put_swatch(tab, p, area, colour_of(map, mixed), mixed ? "they differ" : "all the same");
-        } else if (flip >= 0.0) {
-            dip_map_format(flip, text, sizeof text);
-            put_swatch(tab, p, area,
-                       colour_of(map, (float)(flip / dip_maps_end(tab->maps, tab->tools))), text);
-        }
-    }
-}
-
-static void tile_values(const Tab *tab, DipRect area, int x, int y) {
-    double values[DIP_PANE_COUNT], shares[DIP_PANE_COUNT];
-    for (int i = 0; i < WORK_ROWS; i++) {
-        const DipMap map = work_rows[i].map;
-        for (int p = 0; p < DIP_PANE_COUNT; p++) {
-            const DipMapWork *work = dip_maps_work(tab->maps, p);
-            const bool known = work->draws && x < work->width && y < work->height;
-            const int tile = known ? dip_map_tile(work, x, y) : 0;
-            values[p] = known ? dip_map_value(work, map, tile) : -1.0;
-            shares[p] = known ? values[p] * (100.0 / sum_of(work, map)) : -1.0;
-            values[p] *= known && map == DIP_MAP_SAMPLES ? dip_map_tile_pixels(work, tile) : 1;
-        }
-        put_row(tab, area, i ? i + 1 : 0, work_rows[i].tile_name, work_rows[i].tile_format, values,
-                BY_FACTOR);
-        if (map == DIP_MAP_TIME) {
-            put_row(tab, area, 1, "of the frame", "%.1f %%", shares, NOT_COMPARED);
-        }
-    }
-}
-
-void dip_maps_mouse_block(const Tab *tab, DipRect area) {
-    const char *title =
-        tab->maps->view.pointed || !tab->tools->pinned ? "Under the mouse" : "At the pinned pixel";
-    const bool tiles = is_work_map(tab->tools->map);
-    int x, y;
-    char text[64];
-    if (tab->tools->map == DIP_MAP_NONE) {
-        return;
-    }
-    const bool known = described_pixel(tab, &x, &y);
-    if (known && tiles) {
-        snprintf(text, sizeof text, "%s: tile %d, %d", title, x / DIP_TARGET_TILE,
-                 y / DIP_TARGET_TILE);
-        put(tab, TEXT, dip_style_white, area, 0, text);
-        tile_values(tab, area, x, y);
-        return;
-    }
-    snprintf(text, sizeof text, known ? "pixel %d, %d" : "Point at a pane.", x, y);
-    put(tab, TEXT, dip_style_white, area, 0, title);
-    put(tab, NOTE, dip_style_soft, area, ROW, text);
-    if (known) {
-        pixel_values(tab, area, x, y);
     }
 }

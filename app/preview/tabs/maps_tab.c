@@ -266,8 +266,7 @@ static void draw_pane(const Tab *tab, int pane) {
     if (!shows_over(&tab->maps->view, pane)) {
         return;
     }
-    const bool usable = tab->window->still || tab->tools->map == DIP_MAP_FLIP;
-    if (usable && tab->window->frames[pane].width > 0 &&
+    if (knows_values(tab, pane) && tab->window->frames[pane].width > 0 &&
         dip_maps_picture(tab->maps, tab->tools, pane, &tab->window->frames[pane],
                          tab->window->versions[pane], &picture, &version)) {
         dip_ui_picture(tab->ui, tab->window->layout->panes[pane], &picture, version);

@@ -150,16 +150,38 @@ bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const 
 
 // --- words ---------------------------------------------------------------------------------------
 
-static const char *flip_status(const DipMaps *maps, int pane, char *text, size_t size_bytes) {
-    const DipErrorReading *reading = &maps->reading;
-    if (reading->status == DIP_ERROR_STATUS_FAILED) {
-        return "There is not enough memory to measure the error.";
+// Returns why the values of a map are not measured, or NULL if they are or will be. While pictures
+// move, nobody knows what will rest.
+static const char *why_never(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still) {
+    if (gallery && map != DIP_MAP_MIPS) {
+        return map == DIP_MAP_FLIP ? "Gallery scenes have no converged picture, so no error."
+                                   : "Gallery scenes do not record the work of their tiles.";
     }
+    if (!still) {
+        return NULL;
+    }
+    if (map == DIP_MAP_FLIP) {
+        const DipErrorReading *reading = &maps->reading;
+        return reading->status == DIP_ERROR_STATUS_FAILED
+                   ? "There is not enough memory to measure the error."
+               : reading->result.samples > 0 && reading->result.panes[pane].unjudged
+                   ? "Mip colours are no picture of the scene, so they have no error."
+                   : NULL;
+    }
+    if (map != DIP_MAP_MIPS && maps->key.quality[pane].step[DIP_SETTING_SCALE] != DIP_SCALE_1) {
+        return "A render scale draws another picture: choose scale 1x.";
+    }
+    return maps->failed ? "The frame could not be measured: memory ran out." : NULL;
+}
+
+bool dip_maps_can_measure(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still) {
+    return !why_never(maps, map, pane, gallery, still);
+}
+
+static const char *flip_status(const DipMaps *maps, char *text, size_t size_bytes) {
+    const DipErrorReading *reading = &maps->reading;
     if (reading->result.samples == 0) {
         return "Measuring: the converged picture is being drawn.";
-    }
-    if (reading->result.panes[pane].unjudged) {
-        return "Mip colours are no picture of the scene, so they have no error.";
     }
     if (reading->result.last) {
         return "";
@@ -174,9 +196,6 @@ static const char *work_status(const DipMaps *maps, DipMap map, int pane, char *
                                size_t size_bytes) {
     const DipMapWork *work = dip_maps_work(maps, pane);
     const int draws = work->draws;
-    if (maps->failed) {
-        return "The frame could not be measured: memory ran out.";
-    }
     if (map == DIP_MAP_MIPS ? !work->mips : draws == 0) {
         return "Measuring.";
     }
@@ -192,21 +211,11 @@ const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gall
     if (map == DIP_MAP_NONE) {
         return "";
     }
-    if (gallery && map == DIP_MAP_FLIP) {
-        return "Gallery scenes have no converged picture, so no error.";
-    }
-    if (gallery && map != DIP_MAP_MIPS) {
-        return "Gallery scenes do not record the work of their tiles.";
-    }
-    if (!still) {
-        return "Measured while the camera rests.";
-    }
-    if (map != DIP_MAP_FLIP && map != DIP_MAP_MIPS &&
-        maps->key.quality[pane].step[DIP_SETTING_SCALE] != DIP_SCALE_1) {
-        return "A render scale draws another picture: choose scale 1x.";
-    }
-    return map == DIP_MAP_FLIP ? flip_status(maps, pane, text, size_bytes)
-                               : work_status(maps, map, pane, text, size_bytes);
+    const char *never = why_never(maps, map, pane, gallery, still);
+    return never                 ? never
+           : !still              ? "Measured while the camera rests."
+           : map == DIP_MAP_FLIP ? flip_status(maps, text, size_bytes)
+                                 : work_status(maps, map, pane, text, size_bytes);
 }
 
 // --- mip levels ----------------------------------------------------------------------------------

@@ -108,7 +108,7 @@ void dip_maps_choose(DipToolState *tools, DipMap map);
 
 // --- what is known about the panes ---------------------------------------------------------------
 
-// Returns what was measured of the frame that a pane shows.
+// Returns what was measured of the frame that a pane showed when camera and scene rested last.
 const DipMapWork *dip_maps_work(const DipMaps *maps, int pane);
 
 // Returns the index of the tile that holds a pixel.
@@ -137,6 +137,10 @@ bool dip_maps_picture(DipMaps *maps, const DipToolState *tools, int pane, const 
 // still: camera and scene rest.
 const char *dip_maps_status(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still,
                             char *text, size_t size_bytes);
+
+// Returns whether the values of a pane's map are known or will be known once camera and scene rest.
+// The parameters are those of dip_maps_status, which says why not.
+bool dip_maps_can_measure(const DipMaps *maps, DipMap map, int pane, bool gallery, bool still);
 
 // Returns the index of the colour (dip_map_mip_colour) that is most like a pixel of the map
 // DIP_MAP_MIPS, or -1 if no colour is similar or the map is not known. Light may dim the pixel's

@@ -25,7 +25,7 @@ static const DipField interaction_fields[] = {
     {"time", "time", "factor",
      "Time of both together times that of neither, divided by the times of each alone. Above 1, "
      "both together cost more than the product of their ratios; 0 without times.",
-     DIP_FACT(NUMBER, DipCostInteraction, time), .digits = 3},
+     DIP_FACT(NUMBER, DipCostInteraction, time), .digits = 3, .show = DIP_SHOW_OF_TIMES},
 };
 const DipRecord dip_cost_interaction_record =
     DIP_RECORD("interaction", "Two settings at their last steps together, against each alone.",

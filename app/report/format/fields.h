@@ -40,7 +40,8 @@ enum {
 enum {
     DIP_SHOW_SIGN = 1,    // The field is a change, and is written with '+' or '-'.
     DIP_SHOW_FIGURES = 2, // `digits` are significant figures.
-    DIP_SHOW_CODE = 4     // The field is code that people copy. Pages mark it as code.
+    DIP_SHOW_CODE = 4,    // The field is code that people copy. Pages mark it as code.
+    DIP_SHOW_OF_TIMES = 8 // The field has no unit of time, but is computed from times, as a ratio.
 };
 
 // Names the item whose field is wanted. An item is a struct that has fields.
@@ -210,7 +211,9 @@ typedef struct DipTable {
     void *context;
     const void *items;
     int count;
-    DipLimits limits; // Milliseconds that no rounded time crosses: the budgets beside the table.
+    // Milliseconds that no rounded time crosses: the budgets beside the table. If they are marked
+    // as doubtful, so are all times and all fields with DIP_SHOW_OF_TIMES.
+    DipLimits limits;
     bool (*shows)(const DipFieldAt *at); // Returns whether to show an item; NULL shows all items.
     // Items may have an int member with the index of the row of the report that the item shows, or
     // -1 if it shows none. `row` points to this member of the first item. The other items have it

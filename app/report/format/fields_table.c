@@ -30,7 +30,16 @@ typedef struct Layout {
 // --- cells ---------------------------------------------------------------------------------------
 
 static bool is_time(const DipField *field) {
-    return field->unit && strcmp(field->unit, "ms") == 0 && !(field->show & DIP_SHOW_SIGN);
+    return field->unit && strcmp(field->unit, "ms") == 0;
+}
+
+// Writes a time, or a field that is computed from times. Only times, and not changes of a time, are
+// compared with limits.
+static void format_of_times(const DipField *field, DipLimits limits, double value,
+                            char text[DIP_NUMBER_BYTES]) {
+    const bool is_change = field->show & DIP_SHOW_SIGN;
+    limits.count = is_time(field) && !is_change ? limits.count : 0;
+    dip_limited_number(value, field->digits, is_change, limits, "-", text);
 }
 
 static void format_number(const DipField *field, DipLimits limits, double value,
@@ -45,8 +54,8 @@ static void format_number(const DipField *field, DipLimits limits, double value,
         for (size_t end = strlen(text); strchr(text, '.') && strchr("0.", text[end - 1]); end--) {
             text[end - 1] = '\0';
         }
-    } else if (is_time(field)) {
-        dip_limited_number(value, field->digits, limits, "-", text);
+    } else if (is_time(field) || field->show & DIP_SHOW_OF_TIMES) {
+        format_of_times(field, limits, value, text);
     } else {
         dip_number_text(value, field->digits, field->show & DIP_SHOW_SIGN, "-", text);
     }
@@ -65,11 +74,13 @@ void dip_field_interval_text(const DipField *field, DipLimits limits, const DipE
 
 static void format_estimate(const DipField *field, DipLimits limits, const DipEstimate *estimate,
                             char *text) {
+    const bool has_interval = dip_field_has_interval(estimate);
+    if (field->show & DIP_SHOW_OF_TIMES && !has_interval && estimate->value == 1.0) {
+        limits.doubtful = false; // A time divided by itself is surely 1.
+    }
     format_number(field, limits, estimate->value, text);
     if (*text && field->show & DIP_SHOW_SIGN) { // A blank in place of '?' keeps digits aligned.
-        const bool doubtful =
-            dip_field_has_interval(estimate) && estimate->low <= 0.0 && estimate->high >= 0.0;
-        strcat(text, doubtful ? "?" : " ");
+        strcat(text, has_interval && estimate->low <= 0.0 && estimate->high >= 0.0 ? "?" : " ");
     }
 }
 

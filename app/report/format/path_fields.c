@@ -126,7 +126,7 @@ static const DipField step_fields[] = {
     {"step", "step", NULL, "Name of the step.", DIP_DERIVED(TEXT, derive_step)},
     {"ratio", "ratio", NULL, "The step's time divided by that of the sweep's base.",
      DIP_COMPUTED(ESTIMATE, DipCostSweep, ratios[0]), .stride = sizeof(DipEstimate),
-     .known = is_step_timed, .digits = 3},
+     .known = is_step_timed, .show = DIP_SHOW_OF_TIMES, .digits = 3},
     METRIC_LIST(CHANGE_FIELD){"measured", NULL, NULL, "The fields of the step's row.",
                               DIP_SHOWN(RECORD, derive_row), .record = &dip_cost_row_record},
 };

@@ -269,10 +269,10 @@ DIP_DERIVE(derive_at_floor,
            is_judged(at) ? DIP_MADE(bool, dip_cost_at_floor(dip_cost_report_of(at), row_of(at)))
                          : NULL)
 
-#define TIME_FIELD(NAME, title, unit, means, MEMBER, DIGITS)                                       \
+#define TIME_FIELD(NAME, title, unit, means, MEMBER, DIGITS, SHOW)                                 \
     {                                                                                              \
         NAME, title, unit, means, DIP_COMPUTED(ESTIMATE, DipCostRow, time.MEMBER),                 \
-            .known = is_timed, .digits = DIGITS                                                    \
+            .known = is_timed, .digits = DIGITS, .show = SHOW                                      \
     }
 #define OF_VIEWPOINTS(METRIC, NAME, title, unit, DIGITS)                                           \
     {NAME "_of_viewpoints",                                                                        \
@@ -306,14 +306,14 @@ static const DipField row_fields[] = {
     TIME_FIELD("ratio", "ratio", NULL,
                "The time for the whole path divided by the baseline's; each frame was timed beside "
                "the baseline's same frame.",
-               ratio, 3),
+               ratio, 3, DIP_SHOW_OF_TIMES),
     TIME_FIELD("ms", "mean", "ms", "Mean time of the frames along the path, in this run.", mean_ms,
-               2),
+               2, 0),
     TIME_FIELD("p95_ms", "p95", "ms",
-               "95th percentile of the times of the frames along the path, in this run.", p95_ms,
-               2),
+               "95th percentile of the times of the frames along the path, in this run.", p95_ms, 2,
+               0),
     TIME_FIELD("worst_ms", "worst", "ms", "Time of the slowest frame along the path, in this run.",
-               worst_ms, 2),
+               worst_ms, 2, 0),
     STAGE_NAMES_FIELD(DipCostRow, is_timed),
     COUNTERS_FIELD(DipCostRow, is_timed),
 };

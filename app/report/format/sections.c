@@ -108,9 +108,9 @@ static void write_chosen(DipForm *form, const DipCostReport *report, const DipAd
     char interval[DIP_CELL_BYTES], mean[DIP_NUMBER_BYTES];
     dip_cost_settings_text(&chosen->quality, text);
     dip_form_paragraph(form, "chosen", "%s", text);
-    dip_limited_number(time.value, 2, budget, "-", ms);
+    dip_limited_number(time.value, 2, false, budget, "-", ms);
     dip_field_interval_text(&(DipField){.unit = "ms", .digits = 2}, budget, &time, interval);
-    dip_limited_number(dip_cost_ms(report, chosen->row), 2, budget, "-", mean);
+    dip_limited_number(dip_cost_ms(report, chosen->row), 2, false, budget, "-", mean);
     dip_form_fact(form, "Time", "%s ms %s along the path (%s), mean %s ms", ms,
                   dip_time_kind_names[candidates->kind], interval, mean);
     dip_fits_text(advice->fits, fits);
@@ -130,7 +130,8 @@ static void write_nothing(DipForm *form, const DipCandidates *candidates, const 
     char text[DIP_COST_TEXT], fits[DIP_NUMBER_BYTES], ms[DIP_NUMBER_BYTES];
     const DipCandidate *fastest = &candidates->list[advice->next];
     dip_cost_settings_text(&fastest->quality, text);
-    dip_limited_number(fastest->time.value, 2, (DipLimits){&advice->budget_ms, 1, false}, "-", ms);
+    dip_limited_number(fastest->time.value, 2, false, (DipLimits){&advice->budget_ms, 1, false},
+                       "-", ms);
     dip_fits_text(advice->next_fits, fits);
     dip_form_paragraph(form, NULL,
                        "Nothing that was measured surely fits. The fastest settings, %s, take %s "
@@ -326,12 +327,14 @@ void dip_section_measured(DipForm *form, const DipCostReport *report) {
         form, style, "The machine was %s. %s%s %s", verdict, report->verdict_reason,
         report->verdict == DIP_COST_RED ? " The times are wrong, and no settings are advised." : "",
         level);
+    const int count = dip_cost_same_lines(report, lines);
+    // These ratios say how wrong the times are, so they keep their digits on a busy machine.
     DIP_FORM_TABLE(form, .id = "baseline-twice",
                    .caption =
                        "On each path, the baseline was timed a second time as if it were another "
                        "setting (A/A). Differences between settings that are smaller are noise.",
-                   .columns = "path; ratio",
-                   DIP_COST_LINES(report, lines, dip_cost_same_lines(report, lines)));
+                   .columns = "path; ratio", .record = &dip_cost_line_record,
+                   .context = (void *)report, .row = &lines->row, .items = lines, .count = count);
 }
 
 // --- predictions ---------------------------------------------------------------------------------
@@ -387,7 +390,8 @@ void dip_section_interactions(DipForm *form, const DipCostReport *report) {
                    "together lower FLIP by less than the sum of what each lowers it.",
         .record = &dip_cost_interaction_record,
         .columns = "a=setting; b=with; time; flip; combinations", .context = (void *)report,
-        .items = report->analysis->interactions, .count = report->analysis->interaction_count);
+        .limits = dip_cost_budgets(report), .items = report->analysis->interactions,
+        .count = report->analysis->interaction_count);
 }
 
 void dip_section_sweep(DipForm *form, const DipCostReport *report, int sweep) {

@@ -134,7 +134,8 @@ static void write_words(const DipCostReport *report, FILE *out) {
                  "Every sample is shaded at its own position, and textures are read from their "
                  "largest level.</dd>\n"
                  "<dt>?</dt><dd>A change is marked with ? if its 95 %% interval holds 0, so that "
-                 "even its sign is not sure.</dd>\n");
+                 "even its sign is not sure. If the machine was too busy, all times and their "
+                 "ratios have one digit and are marked with ?.</dd>\n");
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         DipFieldFound found;
         dip_field_find(&dip_cost_row_record, &nothing, paths[i], &found);

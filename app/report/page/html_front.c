@@ -70,8 +70,8 @@ static void add_predicted(const DipCostReport *report, Parts *parts) {
         if (p->row < 0) {
             char settings[DIP_COST_TEXT], ms[DIP_NUMBER_BYTES], p95[DIP_NUMBER_BYTES];
             dip_cost_settings_text(&p->quality, settings);
-            dip_limited_number(p->ms, 2, dip_cost_budgets(report), "-", ms);
-            dip_limited_number(p->p95_ms, 2, dip_cost_budgets(report), "-", p95);
+            dip_limited_number(p->ms, 2, false, dip_cost_budgets(report), "-", ms);
+            dip_limited_number(p->p95_ms, 2, false, dip_cost_budgets(report), "-", p95);
             snprintf(add_point(&parts->predicted, -1, c), DIP_HTML_TITLE_BYTES,
                      "%s: predicted %s ms, 95th percentile %s ms; predicted FLIP %.4f", settings,
                      ms, p95, p->flip);

@@ -96,14 +96,16 @@ static void list_errors(Lines *lines) {
 }
 
 static void write_plot(Lines *lines, const char *title, const char *y_title, int digits,
-                       const char *unit, FILE *out) {
+                       DipLimits limits, const char *unit, FILE *out) {
     DipPlotSeries series[MOST_LINES];
     char subtitle[DIP_COST_TEXT];
     for (int i = 0; i < lines->count; i++) {
         for (int p = 0; p < lines->points; p++) {
+            char value[DIP_NUMBER_BYTES];
+            dip_limited_number(lines->values[i][p], digits, false, limits, "-", value);
             lines->titles[i][p] = lines->texts[i][p];
-            snprintf(lines->texts[i][p], TITLE_ROOM, "%s, at %.1f %% of the path: %.*f %s",
-                     lines->names[i], lines->positions[p], digits, lines->values[i][p], unit);
+            snprintf(lines->texts[i][p], TITLE_ROOM, "%s, at %.1f %% of the path: %s %s",
+                     lines->names[i], lines->positions[p], value, unit);
         }
         series[i] = (DipPlotSeries){.name = lines->names[i],
                                     .x = lines->positions,
@@ -151,11 +153,12 @@ bool dip_html_path(DipForm *form, const DipCostReport *report) {
         "that was judged for all of them.",
         lines->count > 1 ? "the baseline and of the other settings in the legend" : "the baseline",
         stride);
-    write_plot(lines, "Time along the path", "time of a frame, ms", 2, "ms", form->out);
+    write_plot(lines, "Time along the path", "time of a frame, ms", 2, dip_cost_budgets(report),
+               "ms", form->out);
     list_errors(lines);
     if (lines->points >= 2) {
         write_plot(lines, "Error along the path", "FLIP against the truth, mean of a viewpoint", 4,
-                   "FLIP", form->out);
+                   (DipLimits){0}, "FLIP", form->out);
     }
     free(lines);
     return true;

@@ -13,8 +13,8 @@ static void format_time(const DipCostReport *report, int row, char text[DIP_COST
         const DipLimits budgets = dip_cost_budgets(report);
         char interval[DIP_CELL_BYTES], mean[DIP_NUMBER_BYTES], p95[DIP_NUMBER_BYTES];
         dip_field_interval_text(&digits, budgets, &time->mean_ms, interval);
-        dip_limited_number(time->mean_ms.value, 2, budgets, "-", mean);
-        dip_limited_number(time->p95_ms.value, 2, budgets, "-", p95);
+        dip_limited_number(time->mean_ms.value, 2, false, budgets, "-", mean);
+        dip_limited_number(time->p95_ms.value, 2, false, budgets, "-", p95);
         snprintf(text, DIP_COST_TEXT, "%s ms%s%.64s%s, 95th percentile %s ms", mean,
                  *interval ? " (" : "", interval, *interval ? ")" : "", p95);
     }

@@ -46,6 +46,7 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
     if (!dip_cost_is_timed(report, sweep->rows[index])) {
         return;
     }
+    char text[DIP_NUMBER_BYTES];
     const double room = BAR_ROOM - 60.0;
     const DipEstimate ratio = sweep->ratios[index];
     // The ratio of the base step, with which the other steps are compared, has no interval (NAN).
@@ -56,8 +57,9 @@ static void write_time_bar(const DipCostReport *report, const DipCostSweep *swee
             out, "<line class=\"bar-interval\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>",
             BAR_LEFT + room * ratio.low / most, y + 8.0, end, y + 8.0);
     }
-    dip_put_html(out, "<text x=\"%.1f\" y=\"%.1f\">%.2f</text>\n", end + 6.0, y + 13.0,
-                 ratio.value);
+    const bool is_base = sweep->rows[index] == sweep->base;
+    dip_ratio_number(ratio.value, report->verdict == DIP_COST_RED && !is_base, text);
+    dip_put_html(out, "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n", end + 6.0, y + 13.0, text);
 }
 
 static void write_bars_of(const DipCostReport *report, const DipCostSweep *sweep, int index,

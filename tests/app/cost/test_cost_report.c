@@ -630,7 +630,9 @@ static void settings_without_effect_are_not_chosen(void **state) {
     dip_cost_report_free(&report);
 }
 
-// The tables and the titles of a report from a busy machine write no time as if it were sure.
+// The tables, the titles and the bars of a report from a busy machine write no time and no ratio of
+// times as if it were sure. Only the ratios of A/A, which say how wrong times are, keep their
+// digits, and so does the base's ratio to itself.
 static void doubtful_times_have_a_mark(void **state) {
     (void)state;
     enum { ROOM = 1 << 20 };
@@ -639,7 +641,13 @@ static void doubtful_times_have_a_mark(void **state) {
         DipCostReport report;
         DipError err;
         dip_made_report(&report, 16);
-        dip_made_times(&report, 3, 8.996); // No ratio and no limit of one is written as 9.00.
+        dip_made_times(&report, 1, 1.25);
+        dip_made_times(&report, 3, 8.996);
+        DipQuality both = dip_quality_default();
+        both.step[DIP_SETTING_AA] = both.step[DIP_SETTING_AF] = 1;
+        dip_made_combination(&report, &both, 7.125, 0.01);
+        both.step[DIP_SETTING_AA] = 2;
+        dip_made_combination(&report, &both, 7.875, 0.005);
         assert_true(dip_cost_estimate_times(&report, NULL));
         report.verdict = busy ? DIP_COST_RED : DIP_COST_GREEN;
         assert_true(dip_cost_choose(&report, NULL));
@@ -658,6 +666,18 @@ static void doubtful_times_have_a_mark(void **state) {
         assert_int_equal(strstr(text[1], ">9.00</td>") != NULL, !busy);
         assert_int_equal(strstr(text[1], ">9?</td>") != NULL, busy);
         assert_non_null(strstr(text[1], busy ? ": 9? ms" : ": 9.00 ms")); // A row's title.
+        assert_non_null(strstr(text[1], busy ? "of the path: 1? ms<" : "of the path: 1.00 ms<"));
+        for (int page = 0; page < 2; page++) {
+            assert_non_null(strstr(text[page], "1.250")); // A/A.
+            assert_int_equal(strstr(text[page], "8.996") != NULL, !busy);
+            assert_int_equal(strstr(text[page], "3.000") != NULL, !busy);
+        }
+        assert_int_equal(strstr(text[1], ">7.125</td>") != NULL, !busy);  // Only the page lists it.
+        assert_int_equal(strstr(text[1], ">9.00</text>") != NULL, !busy); // A bar.
+        assert_int_equal(strstr(text[1], ">9?</text>") != NULL, busy);
+        assert_non_null(strstr(text[1], ">1.00</text>")); // The base's.
+        assert_non_null(strstr(text[1], busy ? ">1?</td><td class=\"n\">1.000</td>"
+                                             : ">1.00</td><td class=\"n\">1.000</td>"));
         dip_cost_report_free(&report);
     }
 }

@@ -1,8 +1,7 @@
 // Tests of the free camera: drags and the wheel over the panes turn, orbit and speed up the camera,
 // and leave clicks and the loupe's wheel alone. Poses are checked with rotation matrices.
+#include "tests/app/preview/lone_window.h"
 #include "app/preview/state/pilot.h"
-#include "app/preview/loop/view.h"
-#include "config/config.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -16,56 +15,15 @@
 enum { X = 300, Y = 200 }; // A point of the current pane.
 
 static const double rad = 3.14159265358979323846 / 180.0;
-static DipCamPath *path;
-static DipCamTrack track;
-static DipPreviewState state;
-static DipView *view;
-static DipPrices *prices;
-static DipTools *tools;
-static DipPaneFigures figures[DIP_PANE_COUNT];
-static uint8_t pixels[4 * 16 * 16];
-static DipViewInput input;
 static DipSession session;
 static DipPose pose;
 static double pane_height;
 
 static int set_up(void **unused) {
-    (void)unused;
-    const DipCamKey keys[3] = {
-        {{0, 0, 0}, {0, 0, 0, 1}}, {{1, 1, 0}, {0, 0, 0, 1}}, {{3, 1, 0}, {0, 0, 0, 1}}};
-    assert_true(dip_campath_create(keys, 3, INT64_C(5000000000), &path, NULL));
-    track = dip_camtrack_make(true);
-    dip_camtrack_set(&track, DIP_CATEGORY_DEFAULT, path, 60.0);
-    const DipQuality quality[2] = {dip_quality_default(), dip_quality_default()};
-    state = dip_preview_state_make(quality, &track);
-    view = dip_view_create(NULL, NULL);
-    prices = dip_prices_create(NULL);
-    tools = dip_tools_create(NULL);
-    assert_true(view && prices && tools);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipFrame frame = {.rgba8 = pixels, .stride_bytes = 64, .width = 16, .height = 16};
-        dip_view_set_frame(view, p, &frame);
-    }
-    input = (DipViewInput){.width = 1282,
-                           .height = 720,
-                           .scale = 1.0,
-                           .state = &state,
-                           .figures = figures,
-                           .prices = prices,
-                           .tools = tools,
-                           .still = true};
-    pane_height = dip_view_layout(&input).panes[0].height;
-    session = (DipSession){.track = track};
+    dip_lone_set_up(unused);
+    pane_height = dip_view_layout(&lone.input).panes[0].height;
+    session = (DipSession){.track = lone.track};
     pose = (DipPose){.position_world = {1, 2, 3}, .orientation = {0, 0, 0, 1}, .fov_y_deg = 60};
-    return 0;
-}
-
-static int tear_down(void **unused) {
-    (void)unused;
-    dip_tools_destroy(&tools);
-    dip_prices_destroy(&prices);
-    dip_view_destroy(&view);
-    dip_campath_destroy(&path);
     return 0;
 }
 
@@ -73,29 +31,15 @@ static int tear_down(void **unused) {
 
 static bool turn(void) {
     const DipPilotTurn pilot = {.session = &session, .speed_m_per_s = 3.0};
-    return dip_pilot_turn(&state, &pilot, &pose);
-}
-
-static void mouse(DipEventKind kind, DipMouseButton button, int x, int y) {
-    dip_view_handle(view, &input,
-                    &(DipEvent){.kind = kind, .x = x, .y = y, .button = button, .clicks = 1});
+    return dip_pilot_turn(&lone.state, &pilot, &pose);
 }
 
 static void drag(DipMouseButton button, int dx, int dy) {
-    mouse(DIP_EVENT_MOUSE_DOWN, button, X, Y);
-    mouse(DIP_EVENT_MOUSE_MOVE, button, X + dx / 2, Y + dy / 2);
-    mouse(DIP_EVENT_MOUSE_MOVE, button, X + dx, Y + dy);
-    mouse(DIP_EVENT_MOUSE_UP, button, X + dx, Y + dy);
+    dip_lone_mouse(DIP_EVENT_MOUSE_DOWN, button, X, Y);
+    dip_lone_mouse(DIP_EVENT_MOUSE_MOVE, button, X + dx / 2, Y + dy / 2);
+    dip_lone_mouse(DIP_EVENT_MOUSE_MOVE, button, X + dx, Y + dy);
+    dip_lone_mouse(DIP_EVENT_MOUSE_UP, button, X + dx, Y + dy);
     turn();
-}
-
-static void wheel(double steps, unsigned modifiers) {
-    dip_view_handle(view, &input,
-                    &(DipEvent){.kind = DIP_EVENT_MOUSE_WHEEL,
-                                .x = X,
-                                .y = Y,
-                                .wheel_y = steps,
-                                .modifiers = modifiers});
 }
 
 // --- looking -------------------------------------------------------------------------------------
@@ -138,7 +82,7 @@ static void camera_coordinates(const double world[3], double seen[3]) {
 
 static void dragging_turns_the_free_camera(void **unused) {
     (void)unused;
-    state.manual = true;
+    lone.state.manual = true;
     for (int i = 0; i < 2; ++i) {
         const DipMouseButton button = i ? DIP_MOUSE_RIGHT : DIP_MOUSE_LEFT;
         pose.orientation[0] = pose.orientation[1] = pose.orientation[2] = 0.0;
@@ -218,21 +162,21 @@ static void a_rolled_camera_does_not_tip_over(void **unused) {
 static void the_right_button_frees_the_camera_and_a_click_pins_the_loupe(void **unused) {
     (void)unused;
     drag(DIP_MOUSE_LEFT, 100, 0); // The left button only chooses the pane.
-    assert_false(state.manual);
+    assert_false(lone.state.manual);
     drag(DIP_MOUSE_RIGHT, 2, 1); // This is a click.
-    assert_false(state.manual);
-    assert_true(state.tools.pinned);
-    state.tools.pinned = false;
+    assert_false(lone.state.manual);
+    assert_true(lone.state.tools.pinned);
+    lone.state.tools.pinned = false;
     drag(DIP_MOUSE_RIGHT, 100, 0);
-    assert_true(state.manual);
-    assert_false(state.tools.pinned);
+    assert_true(lone.state.manual);
+    assert_false(lone.state.tools.pinned);
     assert_looks(90.0 * 100 / pane_height, 0.0);
 }
 
 static void the_wipe_keeps_the_left_button(void **unused) {
     (void)unused;
-    state.manual = true;
-    state.tools.comparison = DIP_COMPARE_WIPE;
+    lone.state.manual = true;
+    lone.state.tools.comparison = DIP_COMPARE_WIPE;
     drag(DIP_MOUSE_LEFT, 100, 0);
     assert_looks(0.0, 0.0);
     drag(DIP_MOUSE_RIGHT, 100, 0);
@@ -242,8 +186,8 @@ static void the_wipe_keeps_the_left_button(void **unused) {
 // The centre stays where it is in camera space, so it keeps its place and size in the picture.
 static void orbiting_keeps_the_centre_in_the_picture(void **unused) {
     (void)unused;
-    state.manual = true;
-    state.flight.orbits = true;
+    lone.state.manual = true;
+    lone.state.flight.orbits = true;
     double centre[3], before[3], after[3];
     dip_camera_look(&pose, 20.0, 10.0);
     dip_orbit_centre(&session, &pose, centre);
@@ -268,8 +212,8 @@ static void orbiting_keeps_the_centre_in_the_picture(void **unused) {
 // What lies between the camera and the centre moves with the pointer: to the right and down.
 static void an_orbited_scene_follows_the_pointer(void **unused) {
     (void)unused;
-    state.manual = true;
-    state.flight.orbits = true;
+    lone.state.manual = true;
+    lone.state.flight.orbits = true;
     double centre[3], seen[3], before[3];
     dip_orbit_centre(&session, &pose, centre);
     for (int i = 0; i < 3; ++i) {
@@ -284,12 +228,12 @@ static void an_orbited_scene_follows_the_pointer(void **unused) {
 
 static void the_wheel_zooms_an_orbit(void **unused) {
     (void)unused;
-    state.manual = true;
-    state.flight.orbits = true;
+    lone.state.manual = true;
+    lone.state.flight.orbits = true;
     double centre[3], before[3], after[3];
     dip_orbit_centre(&session, &pose, centre);
     camera_coordinates(centre, before);
-    wheel(2.0, 0);
+    dip_lone_wheel(2.0, 0, X, Y);
     assert_true(turn());
     camera_coordinates(centre, after);
     assert_true(fabs(after[2] - 0.81 * before[2]) < 1e-12);
@@ -303,42 +247,42 @@ static void the_wheel_zooms_an_orbit(void **unused) {
 static void the_wheel_changes_the_speed(void **unused) {
     (void)unused;
     turn();
-    wheel(4.0, 0);
-    assert_true(dip_flight_speed(&state.flight) == 3.0); // The camera follows its path.
-    state.manual = true;
-    wheel(4.0, 0);
-    assert_true(dip_flight_speed(&state.flight) == 6.0);
-    assert_non_null(strstr(state.notice, "6 m/s"));
-    wheel(-8.0, 0);
-    assert_true(dip_flight_speed(&state.flight) == 1.5);
+    dip_lone_wheel(4.0, 0, X, Y);
+    assert_true(dip_flight_speed(&lone.state.flight) == 3.0); // The camera follows its path.
+    lone.state.manual = true;
+    dip_lone_wheel(4.0, 0, X, Y);
+    assert_true(dip_flight_speed(&lone.state.flight) == 6.0);
+    assert_non_null(strstr(lone.state.notice, "6 m/s"));
+    dip_lone_wheel(-8.0, 0, X, Y);
+    assert_true(dip_flight_speed(&lone.state.flight) == 1.5);
     for (int i = 0; i < 100; ++i) {
-        wheel(-8.0, 0);
+        dip_lone_wheel(-8.0, 0, X, Y);
     }
-    assert_true(dip_flight_speed(&state.flight) == 3.0 / 1024);
+    assert_true(dip_flight_speed(&lone.state.flight) == 3.0 / 1024);
 }
 
 static void the_loupe_keeps_its_wheel(void **unused) {
     (void)unused;
     turn();
-    state.manual = true;
-    state.tools.loupe = true;
-    const int zoom = state.tools.zoom;
-    wheel(1.0, DIP_MODIFIER_CTRL);
-    assert_int_equal(state.tools.zoom, 2 * zoom);
-    assert_int_equal(state.flight.speed_steps, 0);
-    wheel(1.0, 0);
-    assert_int_equal(state.tools.zoom, 2 * zoom);
-    assert_int_equal(state.flight.speed_steps, 1);
+    lone.state.manual = true;
+    lone.state.tools.loupe = true;
+    const int zoom = lone.state.tools.zoom;
+    dip_lone_wheel(1.0, DIP_MODIFIER_CTRL, X, Y);
+    assert_int_equal(lone.state.tools.zoom, 2 * zoom);
+    assert_int_equal(lone.state.flight.speed_steps, 0);
+    dip_lone_wheel(1.0, 0, X, Y);
+    assert_int_equal(lone.state.tools.zoom, 2 * zoom);
+    assert_int_equal(lone.state.flight.speed_steps, 1);
 }
 
 static void home_takes_the_camera_back(void **unused) {
     (void)unused;
-    state.play_ns = INT64_C(2500000000);
-    state.manual = true;
-    dip_preview_act(&state, DIP_ACTION_CAMERA_BACK, 0, false, 0);
+    lone.state.play_ns = INT64_C(2500000000);
+    lone.state.manual = true;
+    dip_preview_act(&lone.state, DIP_ACTION_CAMERA_BACK, 0, false, 0);
     assert_true(turn());
     assert_true(pose.position_world[0] == 0.5 && pose.position_world[1] == 0.5);
-    assert_true(state.manual);
+    assert_true(lone.state.manual);
     assert_false(turn());
     pose = (DipPose){.fov_y_deg = 60}; // A camera that is free before the first frame has no pose.
     assert_true(turn());
@@ -350,15 +294,15 @@ static void only_given_models_are_orbited_at_first(void **unused) {
     const DipSessionOptions none = {.model_count = 0};
     const DipSessionOptions one = {.model_count = 1};
     session.options = &none;
-    dip_pilot_enter(&state.flight, &session);
-    assert_false(state.flight.orbits);
+    dip_pilot_enter(&lone.state.flight, &session);
+    assert_false(lone.state.flight.orbits);
     session.options = &one;
-    dip_pilot_enter(&state.flight, &session);
-    assert_true(state.flight.orbits);
-    dip_preview_act(&state, DIP_ACTION_ORBIT, 0, false, 0); // Frees the camera.
-    assert_true(state.manual && state.flight.orbits);
-    dip_preview_act(&state, DIP_ACTION_ORBIT, 0, false, 0);
-    assert_false(state.flight.orbits);
+    dip_pilot_enter(&lone.state.flight, &session);
+    assert_true(lone.state.flight.orbits);
+    dip_preview_act(&lone.state, DIP_ACTION_ORBIT, 0, false, 0); // Frees the camera.
+    assert_true(lone.state.manual && lone.state.flight.orbits);
+    dip_preview_act(&lone.state, DIP_ACTION_ORBIT, 0, false, 0);
+    assert_false(lone.state.flight.orbits);
 }
 
 // --- the end of paths ----------------------------------------------------------------------------
@@ -366,23 +310,23 @@ static void only_given_models_are_orbited_at_first(void **unused) {
 // Position on the path that the track shows at a play time.
 static double shown_x(int64_t play_ns) {
     DipPose shown;
-    assert_true(dip_camtrack_pose(&track, play_ns, &shown));
+    assert_true(dip_camtrack_pose(&lone.track, play_ns, &shown));
     return shown.position_world[0];
 }
 
 // The path's x is 0, 1 and 3 at 0, 5 and 10 s, and as a loop 0 again at 15 s.
 static void the_end_of_paths_changes_without_a_jump(void **unused) {
     (void)unused;
-    state.play_ns = INT64_C(37500000000); // 7.5 s in the third loop.
-    assert_true(fabs(shown_x(state.play_ns) - 2.0) < 1e-12);
+    lone.state.play_ns = INT64_C(37500000000); // 7.5 s in the third loop.
+    assert_true(fabs(shown_x(lone.state.play_ns) - 2.0) < 1e-12);
     for (int i = 0; i < DIP_CAMPATH_END_COUNT; ++i) {
-        dip_preview_act(&state, DIP_ACTION_PATH_END, 1, false, 0);
-        assert_int_equal(track.end, (i + 1) % DIP_CAMPATH_END_COUNT);
-        assert_true(fabs(shown_x(state.play_ns) - 2.0) < 1e-12);
-        const bool loops = track.end == DIP_CAMPATH_END_loop;
-        assert_int_equal(dip_preview_path_length_ns(&state),
+        dip_preview_act(&lone.state, DIP_ACTION_PATH_END, 1, false, 0);
+        assert_int_equal(lone.track.end, (i + 1) % DIP_CAMPATH_END_COUNT);
+        assert_true(fabs(shown_x(lone.state.play_ns) - 2.0) < 1e-12);
+        const bool loops = lone.track.end == DIP_CAMPATH_END_loop;
+        assert_int_equal(dip_preview_path_length_ns(&lone.state),
                          INT64_C(1000000000) * (loops ? 15 : 10));
-        assert_int_equal(dip_preview_path_ns(&state), INT64_C(7500000000));
+        assert_int_equal(dip_preview_path_ns(&lone.state), INT64_C(7500000000));
     }
 }
 
@@ -392,19 +336,19 @@ static void jumps_reach_the_time_on_the_path(void **unused) {
     (void)unused;
     static const int64_t second_ns = 1000000000;
     for (int end = 0; end < DIP_CAMPATH_END_COUNT; ++end) {
-        dip_camtrack_set_end(&track, (DipCamPathEnd)end);
+        dip_camtrack_set_end(&lone.track, (DipCamPathEnd)end);
         for (int start = -40; start <= 40; start += 20) {
             for (int play = 0; play < 90; play += 7) {
                 for (int to = 0; to < 10; to += 2) {
-                    dip_camtrack_restart(&track, start * second_ns);
-                    state.play_ns = play * second_ns;
-                    dip_preview_seek_path(&state, to * second_ns);
-                    assert_true(state.play_ns >= 0);
+                    dip_camtrack_restart(&lone.track, start * second_ns);
+                    lone.state.play_ns = play * second_ns;
+                    dip_preview_seek_path(&lone.state, to * second_ns);
+                    assert_true(lone.state.play_ns >= 0);
                     if (end == DIP_CAMPATH_END_once && start + to < 0) {
                         continue; // This time lies before play time 0.
                     }
-                    assert_int_equal(dip_preview_path_ns(&state), to * second_ns);
-                    assert_true(fabs(shown_x(state.play_ns) -
+                    assert_int_equal(dip_preview_path_ns(&lone.state), to * second_ns);
+                    assert_true(fabs(shown_x(lone.state.play_ns) -
                                      (to <= 5 ? to / 5.0 : 1.0 + 2.0 * (to - 5) / 5.0)) < 1e-12);
                 }
             }
@@ -416,9 +360,9 @@ static void buttons_move_the_camera_by_a_quarter_of_a_second(void **unused) {
     (void)unused;
     pose.orientation[1] = sin(-45 * rad); // Looks along +X.
     pose.orientation[3] = cos(-45 * rad);
-    dip_pilot_step(&state, 0, 3, 0);
-    dip_pilot_step(&state, -1, 0, 0);
-    assert_true(state.manual);
+    dip_pilot_step(&lone.state, 0, 3, 0);
+    dip_pilot_step(&lone.state, -1, 0, 0);
+    assert_true(lone.state.manual);
     assert_true(turn());
     assert_true(fabs(pose.position_world[0] - (1.0 + 3 * 0.25 * 3.0)) < 1e-12);
     assert_true(fabs(pose.position_world[1] - 2.0) < 1e-12);
@@ -427,7 +371,7 @@ static void buttons_move_the_camera_by_a_quarter_of_a_second(void **unused) {
 }
 
 int main(void) {
-#define FLIGHT_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define FLIGHT_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, dip_lone_tear_down)
     const struct CMUnitTest tests[] = {
         FLIGHT_TEST(dragging_turns_the_free_camera),
         FLIGHT_TEST(the_camera_does_not_tip_over),

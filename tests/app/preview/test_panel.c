@@ -155,6 +155,8 @@ static void steps_show_their_time_and_change_of_flip(void **state) {
 static void the_sheet_doubts_what_the_panel_doubts(void **state) {
     (void)state;
     static const double scatter[] = {0.2, 5.0, 0.5, 3.0};
+    static const char *const good[] = {"1x", "3.00x", "4.00x"};
+    static const char *const busy[] = {"1x", "3?x", "4?x"};
     enum { GOOD, SCATTERED, BUSY, KINDS };
     for (int kind = GOOD; kind < KINDS; kind++) {
         DipCostReport report;
@@ -174,6 +176,9 @@ static void the_sheet_doubts_what_the_panel_doubts(void **state) {
                 dip_prices_step(prices, DIP_SETTING_AA, quality->step[DIP_SETTING_AA], quality);
             const bool marked = strchr(row.steps[s].time, '?') != NULL;
             assert_int_equal(marked, dip_price_trust(&price) == DIP_PRICE_TRUST_DOUBTFUL);
+            assert_string_equal(row.steps[s].time, kind == SCATTERED ? row.steps[s].time
+                                                   : kind == GOOD    ? good[s]
+                                                                     : busy[s]);
             doubtful += marked;
         }
         assert_true(kind == GOOD        ? doubtful == 0

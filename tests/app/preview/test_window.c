@@ -1,12 +1,11 @@
 // Tests of the window's layout and of its settings tab: at every size, nothing leaves the window,
 // and the keyboard reaches every setting and Apply; clicks, drags and the wheel change steps.
 #include "tests/app/cost/made_report.h"
+#include "tests/app/preview/lone_window.h"
 #include "tests/app/preview/made_live.h"
 #include "app/preview/loop/loop.h"
 #include "app/preview/live/figures.h"
-#include "app/preview/loop/view.h"
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
 #include "config/config.h"
@@ -22,70 +21,13 @@
 
 #include <cmocka.h>
 
-static DipCamPath *path;
-static DipCamTrack track;
-static DipPreviewState state;
-static DipView *view;
-static DipPrices *prices;
-static DipTools *tools;
-static DipPaneFigures figures[DIP_PANE_COUNT];
-static uint8_t pixels[4 * 16 * 16];
-static DipViewInput input;
-
-static int set_up(void **unused) {
-    (void)unused;
-    const DipCamKey keys[2] = {{{0, 0, 0}, {0, 0, 0, 1}}, {{1, 1, 0}, {0, 0, 0, 1}}};
-    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
-    track = dip_camtrack_make(true);
-    dip_camtrack_set(&track, DIP_CATEGORY_DEFAULT, path, 60.0);
-    const DipQuality quality[2] = {dip_quality_default(), dip_quality_default()};
-    state = dip_preview_state_make(quality, &track);
-    view = dip_view_create(NULL, NULL);
-    prices = dip_prices_create(NULL);
-    tools = dip_tools_create(NULL);
-    assert_true(view && prices && tools);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipFrame frame = {.rgba8 = pixels, .stride_bytes = 64, .width = 16, .height = 16};
-        dip_view_set_frame(view, p, &frame);
-        figures[p] = (DipPaneFigures){.ms = 4.0 + p};
-    }
-    input = (DipViewInput){.width = 1282,
-                           .height = 720,
-                           .scale = 1.0,
-                           .state = &state,
-                           .figures = figures,
-                           .prices = prices,
-                           .tools = tools,
-                           .still = true};
-    return 0;
-}
-
-static int tear_down(void **unused) {
-    (void)unused;
-    dip_tools_destroy(&tools);
-    dip_prices_destroy(&prices);
-    dip_view_destroy(&view);
-    dip_campath_destroy(&path);
-    return 0;
-}
-
-static bool press(DipKeycode key) {
-    return dip_view_handle(view, &input, &(DipEvent){.kind = DIP_EVENT_KEY_DOWN, .key = key});
-}
-
-static void mouse(DipEventKind kind, int x, int y) {
-    dip_view_handle(
-        view, &input,
-        &(DipEvent){.kind = kind, .x = x, .y = y, .button = DIP_MOUSE_LEFT, .clicks = 1});
-}
-
 static void click(int x, int y) {
-    mouse(DIP_EVENT_MOUSE_DOWN, x, y);
-    mouse(DIP_EVENT_MOUSE_UP, x, y);
+    dip_lone_mouse(DIP_EVENT_MOUSE_DOWN, DIP_MOUSE_LEFT, x, y);
+    dip_lone_mouse(DIP_EVENT_MOUSE_UP, DIP_MOUSE_LEFT, x, y);
 }
 
 static int step_of(int pane, DipSetting setting) {
-    return state.quality[pane].step[setting];
+    return lone.state.quality[pane].step[setting];
 }
 
 static void assert_inside(DipRect rect, DipRect room) {
@@ -133,11 +75,11 @@ static void the_parts_of_the_window_lie_apart(void **unused) {
 // width.
 static void the_line_between_the_panes_fills_the_gap(void **unused) {
     (void)unused;
-    for (input.width = 1282; input.width < 1284; ++input.width) {
-        const DipLayout layout = dip_view_layout(&input);
+    for (lone.input.width = 1282; lone.input.width < 1284; ++lone.input.width) {
+        const DipLayout layout = dip_view_layout(&lone.input);
         const DipRect left = layout.panes[DIP_PANE_CURRENT];
-        assert_true(dip_view_draw(view, &input, NULL));
-        const DipPixels picture = dip_view_picture(view);
+        assert_true(dip_view_draw(lone.view, &lone.input, NULL));
+        const DipPixels picture = dip_view_picture(lone.view);
         int columns = 0;
         for (int x = left.x + left.width; x < layout.panes[DIP_PANE_REQUESTED].x; ++x, ++columns) {
             const uint8_t *pixel =
@@ -146,7 +88,7 @@ static void the_line_between_the_panes_fills_the_gap(void **unused) {
             assert_int_equal(pixel[1], dip_style_accent.green);
             assert_int_equal(pixel[2], dip_style_accent.blue);
         }
-        assert_int_equal(columns, 2 + input.width % 2);
+        assert_int_equal(columns, 2 + lone.input.width % 2);
     }
 }
 
@@ -155,10 +97,10 @@ static unsigned visit(bool *apply) {
     unsigned settings = 0;
     const DipUiId first_setting = DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING);
     DipUiId first = 0;
-    dip_ui_blur(dip_view_ui(view));
+    dip_ui_blur(dip_view_ui(lone.view));
     for (int i = 0; i < 200; ++i) {
-        assert_true(press(DIP_KEYCODE_TAB));
-        const DipUiId focus = dip_ui_focus(dip_view_ui(view));
+        assert_true(dip_lone_press(DIP_KEYCODE_TAB));
+        const DipUiId focus = dip_ui_focus(dip_view_ui(lone.view));
         assert_true(focus != 0);
         if (focus == first) {
             return settings;
@@ -180,16 +122,16 @@ static void the_keyboard_reaches_every_setting(void **unused) {
     static const int sizes[][2] = {{386, 252},   {386, 480},  {642, 268},  {640, 480},
                                    {900, 500},   {1024, 768}, {1282, 720}, {1920, 1080},
                                    {2560, 1440}, {400, 1200}};
-    state.quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA] = 4;
+    lone.state.quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA] = 4;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
         bool apply = false;
         unsigned settings = 0;
-        input.width = sizes[i][0];
-        input.height = sizes[i][1];
+        lone.input.width = sizes[i][0];
+        lone.input.height = sizes[i][1];
         settings |= visit(&apply);
         assert_int_equal(settings, (1u << DIP_SETTING_COUNT) - 1);
         assert_true(apply);
-        assert_true(dip_view_draw(view, &input, NULL));
+        assert_true(dip_view_draw(lone.view, &lone.input, NULL));
     }
 }
 
@@ -204,35 +146,40 @@ static void clicks_and_drags_choose_a_step(void **unused) {
     click(aa_x(2), AA_Y);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 2);
     assert_int_equal(step_of(DIP_PANE_CURRENT, DIP_SETTING_AA), 0);
-    mouse(DIP_EVENT_MOUSE_DOWN, aa_x(0), AA_Y);
+    dip_lone_mouse(DIP_EVENT_MOUSE_DOWN, DIP_MOUSE_LEFT, aa_x(0), AA_Y);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
     for (int i = 0; i < 5; ++i) {
-        mouse(DIP_EVENT_MOUSE_MOVE, aa_x(i), AA_Y + 100); // The drag may leave the slider.
+        dip_lone_mouse(DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_LEFT, aa_x(i),
+                       AA_Y + 100); // The drag may leave the slider.
         assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), i);
     }
-    mouse(DIP_EVENT_MOUSE_UP, aa_x(4), AA_Y + 100);
-    mouse(DIP_EVENT_MOUSE_MOVE, aa_x(1), AA_Y);
+    dip_lone_mouse(DIP_EVENT_MOUSE_UP, DIP_MOUSE_LEFT, aa_x(4), AA_Y + 100);
+    dip_lone_mouse(DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_LEFT, aa_x(1), AA_Y);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
-    dip_view_handle(
-        view, &input,
-        &(DipEvent){.kind = DIP_EVENT_MOUSE_WHEEL, .x = aa_x(1), .y = AA_Y, .wheel_y = -1.0});
+    dip_lone_wheel(-1.0, 0, aa_x(1), AA_Y);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 3);
+}
+
+// Moves the focus to a control.
+static void focus_on(DipUiGroup group, unsigned id) {
+    dip_ui_blur(dip_view_ui(lone.view));
+    while (dip_ui_focus(dip_view_ui(lone.view)) != DIP_UI_ID(group, id)) {
+        assert_true(dip_lone_press(DIP_KEYCODE_TAB));
+    }
 }
 
 // With the focus on antialiasing, arrows, Home and End take steps.
 static void keys_change_the_focused_setting(void **unused) {
     (void)unused;
-    while (dip_ui_focus(dip_view_ui(view)) != DIP_UI_ID(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING)) {
-        assert_true(press(DIP_KEYCODE_TAB));
-    }
-    assert_true(press(DIP_KEYCODE_RIGHT));
-    assert_true(press(DIP_KEYCODE_RIGHT));
+    focus_on(DIP_UI_SETTINGS, DIP_ID_FIRST_SETTING);
+    assert_true(dip_lone_press(DIP_KEYCODE_RIGHT));
+    assert_true(dip_lone_press(DIP_KEYCODE_RIGHT));
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 2);
-    assert_true(press(DIP_KEYCODE_END));
+    assert_true(dip_lone_press(DIP_KEYCODE_END));
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
-    assert_true(press(DIP_KEYCODE_RIGHT)); // There is no further step.
+    assert_true(dip_lone_press(DIP_KEYCODE_RIGHT)); // There is no further step.
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 4);
-    assert_true(press(DIP_KEYCODE_HOME));
+    assert_true(dip_lone_press(DIP_KEYCODE_HOME));
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }
 
@@ -242,31 +189,30 @@ static void the_open_settings_path_has_a_button(void **unused) {
     const DipCamKey keys[2] = {{{0, 0, 0}, {0, 0, 0, 1}}, {{2, 2, 0}, {0, 0, 0, 1}}};
     DipCamPath *other;
     assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &other, NULL));
-    state.open_setting = DIP_SETTING_MIPLOD;
+    lone.state.open_setting = DIP_SETTING_MIPLOD;
     click(945, AA_Y - 26);
-    assert_int_equal(track.active, DIP_CATEGORY_DEFAULT);
-    dip_camtrack_set(&track, DIP_CATEGORY_MIPLOD, other, 60.0);
+    assert_int_equal(lone.track.active, DIP_CATEGORY_DEFAULT);
+    dip_camtrack_set(&lone.track, DIP_CATEGORY_MIPLOD, other, 60.0);
     click(945, AA_Y - 26);
-    assert_int_equal(track.active, DIP_CATEGORY_MIPLOD);
-    track = dip_camtrack_make(true);
+    assert_int_equal(lone.track.active, DIP_CATEGORY_MIPLOD);
+    lone.track = dip_camtrack_make(true);
     dip_campath_destroy(&other);
 }
 
 // In a small window, the drawer lies over the current pane and takes clicks in its place.
 static void the_drawer_takes_clicks_over_the_pane(void **unused) {
     (void)unused;
-    input.width = 386;
-    input.height = 252;
-    const DipLayout layout = dip_view_layout(&input);
+    lone.input.width = 386;
+    lone.input.height = 252;
+    const DipLayout layout = dip_view_layout(&lone.input);
     assert_int_equal(layout.side, DIP_DOCK_DRAWER);
     click(layout.body.x + 20, layout.body.y + 5);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 1);
-    assert_true(state.edited[DIP_PANE_REQUESTED]);
+    assert_true(lone.state.edited[DIP_PANE_REQUESTED]);
     click(layout.panes[DIP_PANE_REQUESTED].x + 20, 100);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 1);
 }
 
-// A click on a sheet closes it and does nothing to what lies beneath.
 // A display of 4K that does not tell its scale has text twice as large, unless the user gave a
 // scale.
 static void text_grows_with_the_window(void **unused) {
@@ -285,16 +231,17 @@ static void text_grows_with_the_window(void **unused) {
 static void a_pane_has_one_time(void **unused) {
     (void)unused;
     char text[DIP_PANE_TIME_BYTES];
-    DipWindow window = {.state = &state, .figures = figures, .prices = prices, .still = true};
-    figures[1].frames = 1;
+    DipWindow window = {
+        .state = &lone.state, .figures = lone.figures, .prices = lone.prices, .still = true};
+    lone.figures[1].frames = 1;
     dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "one frame: 5.0 ms");
     assert_true(dip_pane_sum(&window, 1).ms == 5.0);
-    figures[1].frames = 30;
+    lone.figures[1].frames = 30;
     dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "5.0 ms");
     // What was measured at rest takes the place of the frames' time, in both.
-    dip_made_live(prices, "aa=none", 6.7, 0.01, 0.05);
+    dip_made_live(lone.prices, "aa=none", 6.7, 0.01, 0.05);
     dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, DIP_ROUGH_MARK "6.7 ms");
     const DipPriceSum sum = dip_pane_sum(&window, 1);
@@ -302,7 +249,7 @@ static void a_pane_has_one_time(void **unused) {
     char scope[DIP_PANE_SCOPE_BYTES];
     dip_pane_time_scope(&window, &sum, scope);
     assert_string_equal(scope, "");
-    dip_made_live(prices, "aa=none", 6.7, 0.9, 0.05);
+    dip_made_live(lone.prices, "aa=none", 6.7, 0.9, 0.05);
     dip_pane_time_text(&window, 1, text);
     assert_string_equal(text, "7? ms");
     window.still = false; // Moving pictures have their own time.
@@ -318,8 +265,8 @@ static void a_report_gives_the_panes_time(void **unused) {
     char text[DIP_PANE_TIME_BYTES];
     dip_made_report(&report, 16); // Row 0, with the default settings, takes 1 ms.
     assert_true(dip_cost_estimate_times(&report, NULL));
-    assert_true(dip_prices_set_report(prices, &report, NULL));
-    DipWindow window = {.state = &state, .figures = figures, .prices = prices};
+    assert_true(dip_prices_set_report(lone.prices, &report, NULL));
+    DipWindow window = {.state = &lone.state, .figures = lone.figures, .prices = lone.prices};
     for (int still = 0; still < 2; ++still) {
         window.still = still;
         const DipPriceSum sum = dip_pane_sum(&window, 0);
@@ -336,16 +283,15 @@ static void a_report_gives_the_panes_time(void **unused) {
         snprintf(text, sizeof text, " at %dx%d", report.width, report.height);
         assert_string_equal(scope, text);
     }
-    dip_prices_destroy(&prices);
-    prices = dip_prices_create(NULL);
+    dip_prices_destroy(&lone.prices);
     dip_cost_report_free(&report);
 }
 
 // Returns where a colour begins in the lowest row of the dock's bar, or -1 if it has none.
 static int line_of(DipColour colour) {
-    assert_true(dip_view_draw(view, &input, NULL));
-    const DipPixels shown = dip_view_picture(view);
-    const DipRect bar = dip_view_layout(&input).bar;
+    assert_true(dip_view_draw(lone.view, &lone.input, NULL));
+    const DipPixels shown = dip_view_picture(lone.view);
+    const DipRect bar = dip_view_layout(&lone.input).bar;
     const uint8_t *row = shown.rgba8 + (size_t)(dip_rect_bottom(bar) - 1) * shown.stride_bytes;
     for (int x = bar.x; x < dip_rect_right(bar); ++x) {
         const uint8_t *pixel = row + 4 * (size_t)x;
@@ -362,19 +308,19 @@ static void lines_mark_the_open_tab_and_the_tools(void **unused) {
     (void)unused;
     int begin[DIP_TAB_COUNT];
     for (int t = 0; t < DIP_TAB_COUNT; ++t) {
-        state.tools.tab = (DipTab)t;
+        lone.state.tools.tab = (DipTab)t;
         begin[t] = line_of(dip_style_white);
         assert_true(begin[t] > (t > 0 ? begin[t - 1] : -1));
         assert_int_equal(line_of(dip_style_accent), -1);
     }
-    state.tools.tab = DIP_TAB_SETTINGS;
-    state.tools.loupe = true;
+    lone.state.tools.tab = DIP_TAB_SETTINGS;
+    lone.state.tools.loupe = true;
     assert_int_equal(line_of(dip_style_white), begin[DIP_TAB_SETTINGS]);
     assert_int_equal(line_of(dip_style_accent), begin[DIP_TAB_LOUPE]);
-    state.tools.tab = DIP_TAB_LOUPE;
+    lone.state.tools.tab = DIP_TAB_LOUPE;
     assert_int_equal(line_of(dip_style_white), begin[DIP_TAB_LOUPE]);
     assert_int_equal(line_of(dip_style_accent), -1);
-    state.tools.open = false; // The tool shows, and its tab is folded away.
+    lone.state.tools.open = false; // The tool shows, and its tab is folded away.
     assert_int_equal(line_of(dip_style_white), -1);
     assert_int_equal(line_of(dip_style_accent), begin[DIP_TAB_LOUPE]);
 }
@@ -428,42 +374,35 @@ static void presets_wait_for_prices(void **unused) {
     (void)unused;
     click(270, 530); // Quality.
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
-    dip_made_live(prices, "aa=none", 6.7, 0.01, -1.0);
+    dip_made_live(lone.prices, "aa=none", 6.7, 0.01, -1.0);
     click(270, 530);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }
 
-// Moves the focus to a control of the settings' tab.
-static void focus_on(unsigned id) {
-    dip_ui_blur(dip_view_ui(view));
-    while (dip_ui_focus(dip_view_ui(view)) != DIP_UI_ID(DIP_UI_SETTINGS, id)) {
-        assert_true(press(DIP_KEYCODE_TAB));
-    }
-}
-
 static void type(const char *digits) {
     for (; *digits; ++digits) {
-        assert_true(press((DipKeycode)*digits));
+        assert_true(dip_lone_press((DipKeycode)*digits));
     }
-    assert_true(press(DIP_KEYCODE_ENTER));
+    assert_true(dip_lone_press(DIP_KEYCODE_ENTER));
 }
 
 // Asserts that a target holds wherever the window has one: in the state, in what is advised, in
 // both fields' number and in the picture of the tab Times.
 static void assert_target(DipPreviewChoice *choice, double ms, uint64_t *picture) {
-    assert_true(fabs(state.budget_ms - ms) < 1e-6);
-    dip_preview_choose(choice, prices, &state.quality[DIP_PANE_REQUESTED], state.budget_ms);
+    assert_true(fabs(lone.state.budget_ms - ms) < 1e-6);
+    dip_preview_choose(choice, lone.prices, &lone.state.quality[DIP_PANE_REQUESTED],
+                       lone.state.budget_ms);
     assert_true(fabs(choice->advice.budget_ms - ms) < 1e-6);
-    state.tools.tab = DIP_TAB_TIMES;
-    assert_true(dip_view_draw(view, &input, NULL));
-    const DipPixels shown = dip_view_picture(view);
+    lone.state.tools.tab = DIP_TAB_TIMES;
+    assert_true(dip_view_draw(lone.view, &lone.input, NULL));
+    const DipPixels shown = dip_view_picture(lone.view);
     const uint64_t before = *picture;
     *picture = 0;
     for (size_t i = 0; i < shown.stride_bytes * (size_t)shown.height; ++i) {
         *picture = *picture * 31 + shown.rgba8[i];
     }
     assert_true(*picture != before);
-    state.tools.tab = DIP_TAB_SETTINGS;
+    lone.state.tools.tab = DIP_TAB_SETTINGS;
 }
 
 // A target that the user types or steps is the one for presets, advice and times.
@@ -484,68 +423,68 @@ static void a_target_holds_everywhere(void **unused) {
             quality.step[settings[i]] = (uint8_t)step;
             char text[DIP_COST_TEXT];
             dip_quality_format(&quality, text, sizeof text);
-            dip_made_live(prices, text, ms, 0.001, flip);
+            dip_made_live(lone.prices, text, ms, 0.001, flip);
         }
     }
-    state.choice = &choice;
+    lone.state.choice = &choice;
     assert_target(&choice, 1000.0 / 60.0, &picture);
-    assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
+    assert_true(dip_preview_preset(&lone.state, DIP_PRESET_BEST, &best));
     assert_int_equal(best.step[DIP_SETTING_AA], 4);
     click(1011, 571); // The pointer stays over the field of the frame rate.
     type("125");
     assert_target(&choice, 8.0, &picture);
-    assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
+    assert_true(dip_preview_preset(&lone.state, DIP_PRESET_BEST, &best));
     assert_int_equal(best.step[DIP_SETTING_AA], 1);
-    focus_on(DIP_ID_FRAME_RATE);           // The tab was left meanwhile.
-    assert_true(press(DIP_KEYCODE_RIGHT)); // The next usual rate.
+    focus_on(DIP_UI_SETTINGS, DIP_ID_FRAME_RATE);   // The tab was left meanwhile.
+    assert_true(dip_lone_press(DIP_KEYCODE_RIGHT)); // The next usual rate.
     assert_target(&choice, 1000.0 / 144.0, &picture);
-    focus_on(DIP_ID_BUDGET);
-    assert_true(press((DipKeycode)'9') && press((DipKeycode)'9') && press(DIP_KEYCODE_BACKSPACE));
+    focus_on(DIP_UI_SETTINGS, DIP_ID_BUDGET);
+    assert_true(dip_lone_press((DipKeycode)'9') && dip_lone_press((DipKeycode)'9') &&
+                dip_lone_press(DIP_KEYCODE_BACKSPACE));
     type(".5");
     assert_target(&choice, 9.5, &picture);
-    assert_true(dip_preview_preset(&state, DIP_PRESET_BEST, &best));
+    assert_true(dip_preview_preset(&lone.state, DIP_PRESET_BEST, &best));
     assert_int_equal(best.step[DIP_SETTING_AA], 2);
-    focus_on(DIP_ID_BUDGET);
+    focus_on(DIP_UI_SETTINGS, DIP_ID_BUDGET);
     type("4");
     assert_target(&choice, 4.0, &picture);
-    assert_false(dip_preview_preset(&state, DIP_PRESET_BEST, &best)); // Nothing fits.
-    dip_preview_follow_refresh(&state, 10.0);                         // The user's choice stays,
-    assert_true(state.budget_ms == 4.0);
-    dip_preview_set_budget(&state, 0.0); // until the user takes the display's refresh.
+    assert_false(dip_preview_preset(&lone.state, DIP_PRESET_BEST, &best)); // Nothing fits.
+    dip_preview_follow_refresh(&lone.state, 10.0); // The user's choice stays,
+    assert_true(lone.state.budget_ms == 4.0);
+    dip_preview_set_budget(&lone.state, 0.0); // until the user takes the display's refresh.
     assert_target(&choice, 10.0, &picture);
-    focus_on(DIP_ID_BUDGET);
+    focus_on(DIP_UI_SETTINGS, DIP_ID_BUDGET);
     type("0"); // No frame takes no time.
-    assert_true(state.budget_ms == 10.0);
-    focus_on(DIP_ID_FRAME_RATE);
-    assert_true(press((DipKeycode)'3'));
-    focus_on(DIP_ID_BUDGET); // What was not entered is forgotten.
+    assert_true(lone.state.budget_ms == 10.0);
+    focus_on(DIP_UI_SETTINGS, DIP_ID_FRAME_RATE);
+    assert_true(dip_lone_press((DipKeycode)'3'));
+    focus_on(DIP_UI_SETTINGS, DIP_ID_BUDGET); // What was not entered is forgotten.
     type("20");
     assert_target(&choice, 20.0, &picture);
     dip_preview_choice_free(&choice);
 }
 
+// A click on a sheet closes it and does nothing to what lies beneath.
 static void a_click_closes_a_sheet(void **unused) {
     (void)unused;
-    state.help = true;
+    lone.state.help = true;
     click(aa_x(2), AA_Y);
-    assert_false(state.help);
+    assert_false(lone.state.help);
     assert_int_equal(step_of(DIP_PANE_REQUESTED, DIP_SETTING_AA), 0);
 }
 
 // A click or a drag on the time line moves the time on the path.
 static void the_time_line_moves_the_time(void **unused) {
     (void)unused;
-    while (dip_ui_focus(dip_view_ui(view)) != DIP_UI_ID(DIP_UI_BAR, DIP_TAB_COUNT + 4)) {
-        assert_true(press(DIP_KEYCODE_TAB));
-    }
-    assert_true(press(DIP_KEYCODE_RIGHT));
-    assert_int_equal(dip_preview_path_ns(&state), INT64_C(1000000000));
-    assert_true(press(DIP_KEYCODE_HOME));
-    assert_int_equal(dip_preview_path_ns(&state), 0);
+    focus_on(DIP_UI_BAR, DIP_TAB_COUNT + 4);
+    assert_true(dip_lone_press(DIP_KEYCODE_RIGHT));
+    assert_int_equal(dip_preview_path_ns(&lone.state), INT64_C(1000000000));
+    assert_true(dip_lone_press(DIP_KEYCODE_HOME));
+    assert_int_equal(dip_preview_path_ns(&lone.state), 0);
 }
 
 int main(void) {
-#define WINDOW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define WINDOW_TEST(name) cmocka_unit_test_setup_teardown(name, dip_lone_set_up, dip_lone_tear_down)
     const struct CMUnitTest tests[] = {
         WINDOW_TEST(the_parts_of_the_window_lie_apart),
         WINDOW_TEST(the_line_between_the_panes_fills_the_gap),

@@ -1,11 +1,10 @@
 // Tests of the texts that the window shows: which time is compared with the target, and that no
 // sentence loses its last words.
 #include "tests/app/cost/made_report.h"
+#include "tests/app/preview/lone_window.h"
 #include "tests/app/preview/made_live.h"
 #include "tests/app/preview/shown_texts.h"
-#include "app/preview/loop/view.h"
 #include "app/preview/prices/price_text.h"
-#include "app/preview/tabs/tabs.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,68 +15,21 @@
 
 #include <cmocka.h>
 
-static DipCamPath *path;
-static DipCamTrack track;
-static DipPreviewState state;
-static DipView *view;
-static DipPrices *prices;
-static DipTools *tools;
-static DipPaneFigures figures[DIP_PANE_COUNT];
-static uint8_t pixels[4 * 16 * 16];
-static DipViewInput input;
-
-static int set_up(void **unused) {
-    (void)unused;
-    const DipCamKey keys[2] = {{{0, 0, 0}, {0, 0, 0, 1}}, {{1, 1, 0}, {0, 0, 0, 1}}};
-    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
-    track = dip_camtrack_make(true);
-    dip_camtrack_set(&track, DIP_CATEGORY_DEFAULT, path, 60.0);
-    const DipQuality quality[2] = {dip_quality_default(), dip_quality_default()};
-    state = dip_preview_state_make(quality, &track);
-    view = dip_view_create(NULL, NULL);
-    prices = dip_prices_create(NULL);
-    tools = dip_tools_create(NULL);
-    assert_true(view && prices && tools);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipFrame frame = {.rgba8 = pixels, .stride_bytes = 64, .width = 16, .height = 16};
-        dip_view_set_frame(view, p, &frame);
-        figures[p] = (DipPaneFigures){.ms = 4.0 + p};
-    }
-    input = (DipViewInput){.width = 1282,
-                           .height = 720,
-                           .scale = 1.0,
-                           .state = &state,
-                           .figures = figures,
-                           .prices = prices,
-                           .tools = tools,
-                           .still = true};
-    return 0;
-}
-
-static int tear_down(void **unused) {
-    (void)unused;
-    dip_tools_destroy(&tools);
-    dip_prices_destroy(&prices);
-    dip_view_destroy(&view);
-    dip_campath_destroy(&path);
-    return 0;
-}
-
 // Draws the window in a size, with pictures of the panes' size.
 static void draw(int width, int height) {
     static uint8_t black[4 * 2000 * 1100];
-    input.width = width;
-    input.height = height;
-    const DipRect pane = dip_view_layout(&input).panes[0];
+    lone.input.width = width;
+    lone.input.height = height;
+    const DipRect pane = dip_view_layout(&lone.input).panes[0];
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipFrame frame = {.rgba8 = black,
                                 .stride_bytes = 4 * (size_t)pane.width,
                                 .width = pane.width,
                                 .height = pane.height};
-        dip_view_set_frame(view, p, &frame);
+        dip_view_set_frame(lone.view, p, &frame);
     }
     dip_shown_texts_forget();
-    assert_true(dip_view_draw(view, &input, NULL));
+    assert_true(dip_view_draw(lone.view, &lone.input, NULL));
 }
 
 static const int sizes[][2] = {{900, 560}, {1282, 720}, {1920, 1080}};
@@ -94,9 +46,9 @@ static void the_target_names_the_time_that_is_judged(void **unused) {
         dip_made_timed(&report, 0, f)->ms = f % 8 == 0 ? 4.0 : 1.0;
     }
     assert_true(dip_cost_estimate_times(&report, NULL));
-    assert_true(dip_prices_set_report(prices, &report, NULL));
+    assert_true(dip_prices_set_report(lone.prices, &report, NULL));
     assert_true(report.rows[0].time.mean_ms.value < 1.1 && report.rows[0].time.p95_ms.value > 1.3);
-    dip_preview_set_budget(&state, 1.2);
+    dip_preview_set_budget(&lone.state, 1.2);
     for (int i = 0; i < SIZES; i++) {
         bool whole = false;
         draw(sizes[i][0], sizes[i][1]);
@@ -110,8 +62,7 @@ static void the_target_names_the_time_that_is_judged(void **unused) {
         assert_true(whole);
         report.options.budget_of = DIP_TIME_P95;
     }
-    dip_prices_destroy(&prices);
-    prices = dip_prices_create(NULL);
+    dip_prices_destroy(&lone.prices);
     dip_cost_report_free(&report);
 }
 
@@ -123,9 +74,9 @@ static void the_source_of_live_prices_is_whole(void **unused) {
         "", "times: 12 steps left, 4 s",
         "times: 12 steps left, 4 s; errors: the picture is 40 % drawn"};
     int shown = 0;
-    dip_made_live(prices, "aa=none", 6.7, 0.01, 0.05);
+    dip_made_live(lone.prices, "aa=none", 6.7, 0.01, 0.05);
     for (int i = 0; i < 3; i++) {
-        dip_prices_set_progress(prices, progress[i]);
+        dip_prices_set_progress(lone.prices, progress[i]);
         for (int width = 600; width <= 1920; width += 13) {
             draw(width, 720);
             if (dip_shown_text("Prices:", NULL)) {
@@ -143,46 +94,108 @@ static void the_source_of_live_prices_is_whole(void **unused) {
 static void a_map_without_values_has_no_scale(void **unused) {
     (void)unused;
     bool whole = false;
-    state.tools.tab = DIP_TAB_MAPS;
-    state.tools.map = DIP_MAP_TIME;
-    state.tools.comparison = DIP_COMPARE_WIPE; // No words over the panes.
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) { // The maps have seen the panes' frames.
-        tools->maps.key.quality[p] = state.quality[p];
+    lone.state.tools.tab = DIP_TAB_MAPS;
+    lone.state.tools.map = DIP_MAP_TIME;
+    lone.state.tools.comparison = DIP_COMPARE_WIPE; // No words over the panes.
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {      // The maps have seen the panes' frames.
+        lone.tools->maps.key.quality[p] = lone.state.quality[p];
     }
     for (int i = 0; i < SIZES; i++) {
-        input.still = false;
+        lone.input.still = false;
         draw(sizes[i][0], sizes[i][1]);
         assert_non_null(dip_shown_text("ms per tile", NULL));
         assert_non_null(dip_shown_text("Measured while the camera rests.", &whole));
         assert_true(whole);
         assert_null(dip_shown_text("Brightness", NULL));
-        input.still = true;
+        lone.input.still = true;
         draw(sizes[i][0], sizes[i][1]);
         assert_non_null(dip_shown_text("Measuring.", NULL));
         assert_null(dip_shown_text("Brightness", NULL));
     }
 }
 
+// Gives both panes' maps the work of a frame of one tile.
+static void make_work(void) {
+    enum { SIDE = 64 };
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        DipMapWork *work = &lone.tools->maps.panes[p];
+        *work = (DipMapWork){
+            .draws = DIP_MAP_DRAWS, .width = SIDE, .height = SIDE, .across = 1, .down = 1};
+        work->records = calloc(1, sizeof *work->records);
+        work->ms = calloc(1, sizeof *work->ms);
+        work->mixed = calloc(1, SIDE * SIDE);
+        work->mips = calloc(4, SIDE * SIDE);
+        assert_true(work->records && work->ms && work->mixed && work->mips);
+        const DipColour colour = dip_map_mip_colour(2); // 256 texels.
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            memcpy(work->mips + 4 * i, (uint8_t[]){colour.red, colour.green, colour.blue, 255}, 4);
+        }
+        work->ms[0] = 7.25;
+        work->geometry_ms = 3.75;
+    }
+}
+
+// The tables of the tab Maps show values of the frame in view. While pictures move, a mark stands
+// in the place of each value, and nothing does where no value will come.
+static void tables_of_maps_wait_while_pictures_move(void **unused) {
+    (void)unused;
+    static const struct {
+        DipMap map;
+        const char *value; // A value at the pinned pixel.
+    } maps[] = {{DIP_MAP_TIME, "7.25 ms"},
+                {DIP_MAP_FRAGMENTS, "7.25 ms"},
+                {DIP_MAP_SAMPLES, "all the same"},
+                {DIP_MAP_MIPS, "256 texels"},
+                {DIP_MAP_FLIP, DIP_WAITING_MARK}}; // There are no errors.
+    make_work();
+    lone.figures[0].frames = lone.figures[1].frames = 30; // The panes' own times are known.
+    lone.state.tools.tab = DIP_TAB_MAPS;
+    lone.state.tools.comparison = DIP_COMPARE_WIPE; // No words over the panes.
+    lone.state.tools.pinned = true;
+    lone.state.tools.x = lone.state.tools.y = 5;
+    for (int i = 0; i < 5; i++) {
+        const bool has_table = maps[i].map != DIP_MAP_MIPS && maps[i].map != DIP_MAP_FLIP;
+        const bool has_error = maps[i].map == DIP_MAP_FLIP;
+        lone.state.tools.map = maps[i].map;
+        lone.input.still = true;
+        draw(1920, 1080);
+        assert_non_null(dip_shown_text(maps[i].value, NULL));
+        assert_int_equal(dip_shown_text("3.75 ms", NULL) != NULL, has_table);
+        assert_int_equal(dip_shown_text(DIP_WAITING_MARK, NULL) != NULL, has_error);
+        lone.input.still = false;
+        draw(1920, 1080);
+        assert_int_equal(dip_shown_text(maps[i].value, NULL) != NULL, has_error);
+        assert_null(dip_shown_text("3.75 ms", NULL));
+        assert_string_equal(dip_shown_text(DIP_WAITING_MARK, NULL), DIP_WAITING_MARK);
+        lone.state.shows_gallery = true;
+        draw(1920, 1080);
+        assert_int_equal(dip_shown_text(DIP_WAITING_MARK, NULL) != NULL,
+                         maps[i].map == DIP_MAP_MIPS);
+        lone.state.shows_gallery = false;
+    }
+}
+
 static void thumbnails_that_wait_are_marked(void **unused) {
     (void)unused;
-    state.tools.tab = DIP_TAB_COMPARE;
-    figures[0].frames = figures[1].frames = 30; // The panes' own times are known.
+    lone.state.tools.tab = DIP_TAB_COMPARE;
+    lone.figures[0].frames = lone.figures[1].frames = 30; // The panes' own times are known.
     for (int i = 0; i < SIZES; i++) {
         draw(sizes[i][0], sizes[i][1]);
         assert_non_null(dip_shown_text(DIP_WAITING_MARK, NULL));
     }
-    tools->strip.failed = true;
+    lone.tools->strip.failed = true;
     draw(1282, 720);
     assert_null(dip_shown_text(DIP_WAITING_MARK, NULL));
 }
 
 int main(void) {
+#define TEXT_TEST(name) cmocka_unit_test_setup_teardown(name, dip_lone_set_up, dip_lone_tear_down)
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_target_names_the_time_that_is_judged, set_up,
-                                        tear_down),
-        cmocka_unit_test_setup_teardown(the_source_of_live_prices_is_whole, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_map_without_values_has_no_scale, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(thumbnails_that_wait_are_marked, set_up, tear_down),
+        TEXT_TEST(the_target_names_the_time_that_is_judged),
+        TEXT_TEST(the_source_of_live_prices_is_whole),
+        TEXT_TEST(a_map_without_values_has_no_scale),
+        TEXT_TEST(tables_of_maps_wait_while_pictures_move),
+        TEXT_TEST(thumbnails_that_wait_are_marked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
