@@ -50,8 +50,11 @@ typedef struct DipDraw {
     DipVertexShader *vertex_shader;
     DipFragmentShader *fragment_shader; // may be NULL in a pass without colours
     DipFragmentShader *clip_shader;     // cuts away parts of the surface; NULL: cuts nothing away
-    // 0..DIP_MAX_VARYINGS. Fragment shaders read the varyings from this number on as 0: that is no
-    // error, but a first reason to look for where colours are black.
+    // 0..DIP_MAX_VARYINGS. The vertex shader may write more varyings, which are dropped, so that a
+    // draw that needs fewer can share it. Fragment shaders read the varyings from this number on as
+    // 0. That is no error, since the pipeline does not see what shaders read in their arrays, but
+    // it is a first reason to look for where colours are black. A texture read at varyings that the
+    // draw does not have is an error (shader.h).
     int varying_count;
     // The clip shader gets only the first clip_varying_count varyings, 0..varying_count.
     int clip_varying_count;
@@ -138,6 +141,8 @@ typedef void DipTileDone(void *context, const DipTargetRegion *pixels, const uin
 // A render pass: draws into one target, or with attachments.depth into depths alone.
 typedef struct DipPass {
     const DipDraw *draws; // in submission order; where depths are equal, the earlier draw is shown
+    // 0: the pass draws nothing, and its attachments are cleared, loaded and stored as in any pass.
+    // `draws` is then ignored, since a list may be empty in some frames.
     int draw_count;
     int sample_count; // 1, 2, 4, 6 or 8 samples per pixel
     DipPatternKind pattern;

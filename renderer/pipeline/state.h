@@ -169,8 +169,9 @@ typedef struct DipStencilFace {
 
 // The stencil test, which comes before the depth test. A clip shader comes before both, so what it
 // cuts away changes no stencil value. An operation writes the bits of write_mask only: with a
-// write_mask of 0, none. With a read_mask of 0, a test compares 0 with 0. A test of which all masks
-// are 0 is refused.
+// write_mask of 0, none. With a read_mask of 0, a test compares 0 with 0. Both are legal alone, as
+// in Direct3D 9, whose masks are all ones at first; these are 0 at first. A test of which all masks
+// are 0 can find and change nothing: it is refused.
 typedef struct DipStencil {
     bool enabled;
     uint8_t reference;

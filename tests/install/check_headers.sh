@@ -13,15 +13,20 @@ include=$prefix/include
 ! grep -v '^diptych/' "$folder/headers" || fail "these headers are not in include/diptych"
 ! grep -rn '#include "' "$include" || fail "these includes could find a header of another program"
 
-# Each header alone: in strict C without any definition, and in C++ with assertions.
+# Each header alone, by the oldest documented standards: in strict C without any definition, and in
+# C++ with assertions.
 while read -r header; do
     printf "#include <%s>\nextern int unused;\n" "$header" >"$folder/header.c"
     cp "$folder/header.c" "$folder/header.cpp"
-    "$compiler" -std=c17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$include" \
-        "$folder/header.c" || fail "$header does not compile in C17"
-    "$cxx" -std=c++17 -Wall -Wextra -Wpedantic -Werror -DDIP_ASSERTS=1 -fsyntax-only \
-        -I"$include" "$folder/header.cpp" || fail "$header does not compile in C++ with assertions"
+    "$compiler" -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$include" \
+        "$folder/header.c" || fail "$header does not compile in C11"
+    "$cxx" -std=c++11 -Wall -Wextra -Wpedantic -Werror -DDIP_ASSERTS=1 -fsyntax-only \
+        -I"$include" "$folder/header.cpp" || fail "$header does not compile in C++11 with assertions"
 done <"$folder/headers"
+for page in libraries pipeline; do
+    grep -q 'headers need C11 or C++11,' "$source/docs/$page.md" ||
+        fail "docs/$page.md does not name the standards that the headers were tested with"
+done
 
 nm -D --defined-only "$prefix"/lib*/libdiptych-*.so "$prefix"/lib/*/libdiptych-*.so 2>/dev/null |
     awk 'NF == 3 { print $3 }' | sort -u >"$folder/exported"

@@ -147,7 +147,9 @@ TEXT
     mkdir -p renderer/base renderer/pipeline
     echo '#error "This is the header of another program."' >renderer/base/error.h
     cp renderer/base/error.h renderer/pipeline/pipeline.h
-    cc -std=c17 $warnings -I. -c first.c -o first.o $(pkg-config --cflags diptych-pipeline)
+    cc -std=c11 $warnings -I. -c first.c -o first.o $(pkg-config --cflags diptych-pipeline)
+    unset PKG_CONFIG_PATH LD_LIBRARY_PATH
+    eval "$(documented pipeline.md 'export PKG_CONFIG_PATH')"
     eval "$(documented pipeline.md 'cc first.c')" >/dev/null
     first_draws ./first
     cc -static first.c $(pkg-config --static --cflags --libs diptych-pipeline diptych-files) -o first

@@ -7,6 +7,25 @@ tested, or the change makes no difference. The runner works in a copy of the las
 build/mutation/, writes a line per mutant to a journal, and skips mutants that the journal has, so
 that it can be stopped and started again. Mutants that survived are tested again after a commit.
 
+A mutant goes through these stages until one catches it:
+
+1. near: the quick tests of the nearest folder that has some: for renderer/pipeline/texture/texture.c
+   those of tests/renderer/pipeline. Only their programs are built.
+2. catalogue: the catalogue of hard cases (tests/stability), if the mutant is in its program.
+3. folder: the other tests of the nearest folder. Again, only their programs are built.
+4. all: everything is built, and the other unit and picture tests run, slow ones last.
+5. sanitizer: the catalogue with the address and undefined-behaviour sanitizers, also only if the
+   mutant is in its program.
+
+After the first build of a file that was changed, its object files are compared with those of the
+unchanged tree. If none differs, those that were not built yet decide whether the mutant is
+equivalent. A journal's line tells the stage that caught the mutant. Before the first mutant of a
+commit, the tests of all these folders run in the unchanged tree, which must pass them. This tells
+how long they take.
+
+The working copy is configured with the environment's CMAKE_C_COMPILER_LAUNCHER, if it is set when
+the copy is made: with a compiler cache, undoing a mutant costs little.
+
     tests/mutation/run.py --count 60 --seed 1     random mutants
     tests/mutation/run.py --count 9 --folder app/control    random mutants of one folder
     tests/mutation/run.py --guards                the mutants of guards.txt
@@ -31,6 +50,11 @@ BUILD = TREE / "build" / "ci"
 FOLDERS = ("renderer", "campaths", "config", "assets", "app/measure", "app/control")
 # The tests that run last, since most mutants fail a quicker one.
 SLOW_TESTS = "stability_|against_reference|determinism|test_live|error_thread|cli"
+# The choice of ctest among all tests.
+CHOICE = ["-L", "unit|image", "-LE", "long|window"]
+# A test of the nearest folder that takes longer runs after the catalogue of hard cases.
+QUICK_SECONDS = 5.0
+STABILITY = "tests/stability/stability"
 
 # (name, pattern, replacement). A rule changes one place of a line, outside comments and texts.
 RULES = [
@@ -133,11 +157,11 @@ def stale_guards():
 
 
 def run(command, seconds, folder=TREE):
-    """Runs a command. Returns (exit code or None after the time limit, last lines of output)."""
+    """Runs a command. Returns (exit code or None after the time limit, output)."""
     try:
         done = subprocess.run(command, cwd=folder, timeout=seconds, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, errors="replace")
-        return done.returncode, done.stdout[-2000:]
+        return done.returncode, done.stdout
     except subprocess.TimeoutExpired:
         return None, "the time limit of %d s" % seconds
 
@@ -153,45 +177,172 @@ def prepare():
     for command in (["cmake", "--preset", "ci", "-DDIP_WERROR=OFF"], ["cmake", "--build", "--preset", "ci"]):
         code, output = run(command, 1800)
         if code != 0:
-            sys.exit("the unchanged tree does not build:\n" + output)
+            sys.exit("the unchanged tree does not build:\n" + output[-2000:])
     return head
 
 
-def digest(folder):
-    """Hashes the object files below a folder, to recognise mutants that compile to the same code."""
-    total = hashlib.sha256()
-    for path in sorted(folder.rglob("*.o")):
-        total.update(path.read_bytes())
-    return total.hexdigest()
+def hashes(objects):
+    """Maps object files, as paths relative to BUILD, to hashes of their bytes."""
+    return {name: hashlib.sha256((BUILD / name).read_bytes()).hexdigest() for name in objects}
+
+
+class Unchanged:
+    """What the unchanged tree, which prepare() has built, tells about its files and tests."""
+
+    def __init__(self, head):
+        # The objects that are compiled from each source or header, and what their bytes are.
+        self.objects = {}
+        text = subprocess.check_output(["ninja", "-t", "deps"], cwd=BUILD, text=True)
+        for block in text.split("\n\n"):
+            lines = block.split("\n")
+            name = lines[0].split(": #deps")[0]
+            if name.endswith(".o"):
+                for line in lines[1:]:
+                    path = os.path.normpath(BUILD / line.strip())
+                    self.objects.setdefault(path, []).append(name)
+        self.hashes = hashes({name for names in self.objects.values() for name in names})
+        self.tests = self.list_tests()
+        self.seconds = self.time_tests(head)
+
+    def list_tests(self):
+        """Maps each folder of tests/ to its tests, and each test to the programs of its command.
+
+        Only tests that run a program of the build are listed."""
+        made = subprocess.check_output(["ninja", "-t", "targets", "all"], cwd=BUILD, text=True)
+        made = {line.split(": ")[0] for line in made.splitlines()}
+        shown = json.loads(subprocess.check_output(
+            ["ctest", "--test-dir", str(BUILD), *CHOICE, "--show-only=json-v1"], text=True))
+        folders = {}
+        for test in shown["tests"]:
+            programs = [os.path.relpath(word, BUILD) for word in test.get("command", [])
+                        if word.startswith(str(BUILD) + "/")]
+            programs = [name for name in programs if name in made]
+            folder = [entry["value"] for entry in test["properties"]
+                      if entry["name"] == "WORKING_DIRECTORY"][0]
+            if programs:
+                folders.setdefault(os.path.relpath(folder, BUILD), {})[test["name"]] = programs
+        return folders
+
+    def time_tests(self, head):
+        """Measures how long the tests that may be the nearest of a file take, once per commit.
+
+        All must succeed. Returns their seconds by name."""
+        kept = WORK / "seconds.json"
+        if kept.exists():
+            entry = json.loads(kept.read_text())
+            if entry["commit"] == head:
+                return entry["seconds"]
+        names = [name for folder, tests in self.tests.items() for name in tests
+                 if folder.startswith(tuple("tests/" + start for start in FOLDERS))]
+        code, output = run_ctest("-R", one_of(names), "-E", SLOW_TESTS)
+        if code != 0:
+            sys.exit("a test of the unchanged tree fails:\n" + output[-2000:])
+        found = re.findall(r"Test +#\d+: (\S+) .*Passed +([\d.]+) sec", output)
+        seconds = {name: float(text) for name, text in found}
+        kept.write_text(json.dumps({"commit": head, "seconds": seconds}))
+        return seconds
+
+    def near_tests(self, file):
+        """Maps the tests that are nearest to a file to the programs that they run.
+
+        Returns the quick ones and the others."""
+        for folder in pathlib.PurePath(file).parents:
+            tests = self.tests.get(str("tests" / folder), {})
+            tests = {name: programs for name, programs in tests.items() if name in self.seconds}
+            if tests:
+                quick = [name for name in tests if self.seconds[name] < QUICK_SECONDS]
+                return ({name: tests[name] for name in tests if name in quick},
+                        {name: tests[name] for name in tests if name not in quick})
+        return {}, {}
+
+
+def programs_of(tests):
+    return sorted({name for programs in tests.values() for name in programs})
+
+
+def one_of(names):
+    """Returns a pattern for ctest that matches exactly these names of tests."""
+    return "^(%s)$" % "|".join(re.escape(name) for name in sorted(names))
+
+
+def run_ctest(*options):
+    return run(["ctest", "--test-dir", "build/ci", *CHOICE, "-j", str(os.cpu_count()),
+                "--timeout", "600", *options], 3600)
 
 
 def ctest(*choice):
     """Runs a choice of the unit and picture tests. Returns the first test that fails, or None."""
-    code, output = run(["ctest", "--test-dir", "build/ci", "-L", "unit|image", "-LE", "long|window",
-                        "-j", str(os.cpu_count()), "--stop-on-failure", "--timeout", "600",
-                        *choice], 3600)
+    code, output = run_ctest("--stop-on-failure", *choice)
     if code == 0:
         return None
     failed = re.findall(r"Test +#\d+: (\S+) .*(?:Failed|Timeout|Exception)", output)
     return failed[0] if failed else "ctest"
 
 
-def judge(unchanged):
-    """Builds and tests the changed tree, quick tests first. Returns (verdict, by what)."""
-    code, output = run(["cmake", "--build", "--preset", "ci", "--target", "stability"], 900)
-    if code != 0:
-        return "invalid", "does not compile"
-    code, output = run(["build/ci/tests/stability/stability", "--depth", "short"], 400)
-    if code != 0:
-        rows = re.findall(r"^(\S+) +\S+ +FAILS", output, re.M)
-        return "caught", "row %s" % rows[0] if rows else "stability: " + output[-80:]
-    code, output = run(["cmake", "--build", "--preset", "ci"], 1800)
-    if code != 0:
-        return "invalid", "does not compile"
-    if digest(BUILD) == unchanged:
-        return "equivalent", "the same machine code"
-    failed = ctest("-E", SLOW_TESTS) or ctest("-R", SLOW_TESTS) or sanitizer()
-    return ("caught", failed) if failed else ("survived", "")
+def catalogue():
+    """Runs the catalogue of hard cases. Returns the first row that fails, or None."""
+    code, output = run(["build/ci/" + STABILITY, "--depth", "short"], 400)
+    if code == 0:
+        return None
+    rows = re.findall(r"^(\S+) +\S+ +FAILS", output, re.M)
+    return "row %s" % rows[0] if rows else "stability: " + output[-80:]
+
+
+class Judge:
+    """Builds and tests one changed file of the tree."""
+
+    def __init__(self, file, unchanged):
+        self.unchanged = unchanged
+        self.objects = unchanged.objects.get(str(TREE / file), [])
+        self.near, self.folder = unchanged.near_tests(file)
+        self.begin = (TREE / file).stat().st_mtime_ns
+        self.differs = None  # whether the machine code does, once it is known
+
+    def is_newer(self, name):
+        """True if a file of the build was made after the change. Others are as they were."""
+        return (BUILD / name).exists() and (BUILD / name).stat().st_mtime_ns > self.begin
+
+    def build(self, *targets):
+        """Builds targets, or all without any, and then looks whether the machine code differs.
+
+        Returns False if the tree does not compile."""
+        command = ["cmake", "--build", "--preset", "ci"] + (["--target", *targets] if targets else [])
+        if run(command, 1800)[0] != 0:
+            return False
+        if self.differs is None:
+            made = hashes(filter(self.is_newer, self.objects))
+            self.differs = any(self.unchanged.hashes[name] != made[name] for name in made) or None
+            if made and not self.differs:  # Those that were not built yet decide.
+                if run(["cmake", "--build", "--preset", "ci", "--target", *self.objects], 1800)[0] != 0:
+                    return False
+                made = hashes(self.objects)
+                self.differs = any(self.unchanged.hashes[name] != made[name] for name in made)
+        return True
+
+    def judge(self):
+        """Returns (verdict, by what, stage in which it was caught)."""
+        stages = [("near", programs_of(self.near), lambda: ctest("-R", one_of(self.near))),
+                  ("catalogue", [STABILITY], lambda: self.is_newer(STABILITY) and catalogue()),
+                  ("folder", programs_of(self.folder), lambda: ctest("-R", one_of(self.folder))),
+                  ("all", [], self.other_tests)]
+        for stage, targets, tests in stages:
+            if stage in ("near", "folder") and not targets:
+                continue
+            if not self.build(*targets):
+                return "invalid", "does not compile", ""
+            if self.differs is False or (stage == "all" and not self.differs):
+                return "equivalent", "the same machine code", ""
+            failed = self.differs and tests()
+            if failed:
+                return "caught", failed, stage
+        failed = self.is_newer(STABILITY) and sanitizer()
+        return ("caught", failed, "sanitizer") if failed else ("survived", "", "")
+
+    def other_tests(self):
+        """Runs the tests that did not run yet, quick ones first. Returns the first that fails."""
+        done = [*self.near, *self.folder]
+        others = SLOW_TESTS + "|" + one_of(done) if done else SLOW_TESTS
+        return ctest("-E", others) or ctest("-R", SLOW_TESTS)
 
 
 def sanitizer():
@@ -234,14 +385,14 @@ def test_mutant(identity, name, apply, journal, head, unchanged):
     after = apply(before)
     begin = time.time()
     if after is None or after == before:
-        verdict, by = "invalid", "the line is not there"
+        verdict, by, stage = "invalid", "the line is not there", ""
     else:
         path.write_text(after)
         try:
-            verdict, by = judge(unchanged)
+            verdict, by, stage = Judge(name, unchanged).judge()
         finally:
             path.write_text(before)
-    entry = {"id": identity, "commit": head, "verdict": verdict, "by": by,
+    entry = {"id": identity, "commit": head, "verdict": verdict, "by": by, "stage": stage,
              "seconds": round(time.time() - begin)}
     with journal.open("a") as file:
         file.write(json.dumps(entry) + "\n")
@@ -310,7 +461,7 @@ def main():
     if options.list:
         print("\n".join(identity for identity, _, _ in mutants[:count]))
         return
-    test_mutants(mutants, count, options.journal, head, digest(BUILD))
+    test_mutants(mutants, count, options.journal, head, Unchanged(head))
     report(options.journal)
 
 

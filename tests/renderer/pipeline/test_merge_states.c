@@ -662,6 +662,55 @@ static void viewports(void **state) {
     dip_mesh_destroy(&mesh);
 }
 
+// --- stencil masks -------------------------------------------------------------------------------
+
+static DipStencil masked(DipCompare function, DipStencilOp passed, int reference, int read,
+                         int write) {
+    const DipStencilFace face = {.function = function, .passed = passed};
+    return (DipStencil){.enabled = true,
+                        .reference = (uint8_t)reference,
+                        .read_mask = (uint8_t)read,
+                        .write_mask = (uint8_t)write,
+                        .front = face,
+                        .back = face};
+}
+
+// A mask of 0 is legal if the other is not: with a read mask of 0 a test compares 0 with 0, and
+// with a write mask of 0 the stored values stay. Each row draws over the one before it.
+static void masks_of_zero(void **test_state) {
+    (void)test_state;
+    const struct {
+        DipStencil stencil;
+        bool is_drawn;
+    } rows[] = {
+        // The values are 9 at first, and 5 from here on.
+        {masked(DIP_COMPARE_EQUAL, DIP_STENCIL_REPLACE, 5, 0, 255), true},
+        {masked(DIP_COMPARE_NOT_EQUAL, DIP_STENCIL_ZERO, 5, 0, 255), false},
+        {masked(DIP_COMPARE_EQUAL, DIP_STENCIL_ZERO, 9, 255, 0), false},
+        {masked(DIP_COMPARE_EQUAL, DIP_STENCIL_ZERO, 5, 255, 0), true},
+        {masked(DIP_COMPARE_EQUAL, DIP_STENCIL_ZERO, 5, 255, 0), true},
+    };
+    enum { ROWS = sizeof rows / sizeof *rows };
+    DipMesh *mesh = rectangle(1, 1, 5, 5, 0.5f);
+    Colour colours[ROWS];
+    DipDrawState states[ROWS];
+    DipDraw draws[ROWS];
+    int red = 0; // of the last row that is drawn
+    for (int i = 0; i < ROWS; i++) {
+        colours[i] = (Colour){{(float)(i + 1) / ROWS, 0, 0, 1}};
+        states[i] = (DipDrawState){
+            .ordered = true, .depth_test = DIP_DEPTH_ALWAYS, .stencil = rows[i].stencil};
+        draws[i] = draw_of(mesh, &colours[i], &states[i]);
+        DipPass pass = pass_of(draws, i + 1, 1);
+        pass.attachments.clear_stencil = 9;
+        pass.target.format = DIP_FORMAT_LINEAR8;
+        run(&pass);
+        red = rows[i].is_drawn ? 255 * (i + 1) / ROWS : red;
+        assert_int_equal(picture[3][3][0], red);
+    }
+    dip_mesh_destroy(&mesh);
+}
+
 // --- bad fields ----------------------------------------------------------------------------------
 
 typedef struct BadField {
@@ -851,7 +900,8 @@ int main(void) {
         cmocka_unit_test(ordered_like_plain), cmocka_unit_test(wireframes),
         cmocka_unit_test(depth_bias),         cmocka_unit_test(depth_only),
         cmocka_unit_test(shadow_maps),        cmocka_unit_test(formats),
-        cmocka_unit_test(viewports),          cmocka_unit_test(bad_fields),
+        cmocka_unit_test(viewports),          cmocka_unit_test(masks_of_zero),
+        cmocka_unit_test(bad_fields),
     };
     return cmocka_run_group_tests(tests, open_pipeline, close_pipeline);
 }

@@ -617,13 +617,21 @@ static void show_last_varying(DipFragmentBatch *batch) {
     }
 }
 
-static void write_all(const DipVertexBatch *batch) {
+static void write_varyings(const DipVertexBatch *batch, int count) {
     copy_vertices(batch);
-    for (int s = 0; s < DIP_MAX_VARYINGS; s++) {
+    for (int s = 0; s < count; s++) {
         for (int i = 0; i < batch->count; i++) {
-            batch->varying[s][i] = 0.7f + batch->in[0][i];
+            batch->varying[s][i] = 0.2f * (float)(s + 1) + batch->in[0][i];
         }
     }
+}
+
+static void write_all(const DipVertexBatch *batch) {
+    write_varyings(batch, DIP_MAX_VARYINGS);
+}
+
+static void write_first(const DipVertexBatch *batch) {
+    write_varyings(batch, 1);
 }
 
 // Every array of a pipeline holds numbers of another pass before each of these draws.
@@ -652,6 +660,38 @@ static void what_shaders_leave_unset_is_zero(void **state) {
         assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
         for (size_t b = 0; b < sizeof pictures[0][0]; b++) {
             assert_int_equal(pictures[0][0][b], b % 4 == 3 ? 255 : 0);
+        }
+    }
+}
+
+// A vertex shader may write varyings that a draw does not have: they change nothing.
+static void varyings_that_a_draw_lacks_are_dropped(void **state) {
+    const Stage *stage = *state;
+    DipDraw draw = stage->draw;
+    DipPass passes[2] = {good_pass(stage, 0), good_pass(stage, 1)};
+    passes[0].draws = passes[1].draws = &draw;
+    draw.vertex_shader = write_first;
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &passes[0], NULL, NULL, NULL));
+    draw.vertex_shader = write_all;
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &passes[1], NULL, NULL, NULL));
+    assert_memory_equal(pictures[0][0], pictures[0][1], sizeof pictures[0][0]);
+}
+
+// A list of draws with a count of 0 is an empty list: the pass clears its target.
+static void a_list_of_no_draws_is_legal(void **state) {
+    const Stage *stage = *state;
+    DipPass pass = good_pass(stage, 0);
+    pass.draw_count = 0;
+    pass.clear_lin[1] = 1.0f;
+    for (int has_list = 0; has_list < 2; has_list++) {
+        pass.draws = has_list ? &(DipDraw){0} : NULL; // a draw that would be refused
+        DipPipelineCounters counters = {0};
+        memset(pictures[0][0], 77, sizeof pictures[0][0]);
+        assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, &counters, NULL, NULL));
+        assert_int_equal(counters.passes, 1);
+        assert_int_equal(counters.fragments_shaded, 0);
+        for (size_t b = 0; b < sizeof pictures[0][0]; b++) {
+            assert_int_equal(pictures[0][0][b], b % 4 == 1 || b % 4 == 3 ? 255 : 0);
         }
     }
 }
@@ -728,6 +768,8 @@ int main(void) {
         cmocka_unit_test(missing_pointers_are_refused_or_have_a_meaning),
         cmocka_unit_test(readings_that_are_not_allowed_are_refused_by_name),
         cmocka_unit_test(what_shaders_leave_unset_is_zero),
+        cmocka_unit_test(varyings_that_a_draw_lacks_are_dropped),
+        cmocka_unit_test(a_list_of_no_draws_is_legal),
         cmocka_unit_test(threads_may_draw_with_pipelines_of_one_pool),
         cmocka_unit_test(a_pipeline_that_draws_cannot_be_used),
         cmocka_unit_test(bad_passes_are_refused_with_the_field_at_fault),
