@@ -299,11 +299,12 @@ void dip_maps_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[DI
     DipMaps *maps = &window->tools->maps;
     const Tab tab = {ui, window, maps, &window->state->tools};
     const bool shows = tab.tools->comparison == DIP_COMPARE_SIDE_BY_SIDE && !tab.tools->bare;
+    const bool is_open = tab.tools->open && tab.tools->tab == DIP_TAB_MAPS && !tab.tools->bare;
     if (!dip_ui_is_drawing(ui)) {
         follow_pointer(&tab, panes);
         return;
     }
-    maps->wanted = shows ? tab.tools->map : DIP_MAP_NONE;
+    maps->wanted = shows || is_open ? tab.tools->map : DIP_MAP_NONE;
     if (!shows || tab.tools->map == DIP_MAP_NONE) {
         return;
     }

@@ -67,7 +67,7 @@ typedef struct DipMapKey {
 // The memory of the maps; zero-initialise. While the window is drawn, the maps' tab sets `wanted`.
 // The tab reads `errors`, and keeps its choices in `view`.
 typedef struct DipMaps {
-    DipMap wanted;       // The map that the window showed when it was drawn last.
+    DipMap wanted;       // The map that the window showed last, over the panes or in tables.
     DipPainter *painter; // Draws the panes' frames again; NULL until a map needs it.
     DipMapKey key;
     bool failed;         // A frame that `key` describes could not be drawn or measured.

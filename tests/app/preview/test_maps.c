@@ -392,6 +392,27 @@ static void a_chosen_map_lies_over_the_panes(void **state) {
     dip_tool_window_close(&tw);
 }
 
+// While another comparison hides the maps, the tables of the open tab still follow the panes.
+static void the_open_tab_is_measured_without_maps(void **state) {
+    static DipToolWindow tw;
+    (void)state;
+    dip_tool_window_open(&tw, DIP_TEST_SCENE_fence, WIDTH, HEIGHT, 180);
+    const DipMaps *maps = &tw.tools->maps;
+    tw.state.tools.comparison = DIP_COMPARE_WIPE;
+    tw.state.tools.map = DIP_MAP_SAMPLES;
+    for (int i = 0; i < 3; i++) {
+        tw.state.tools.tab = i == 0 ? DIP_TAB_LOUPE : DIP_TAB_MAPS;
+        tw.pose.position_world[0] += 0.25;
+        dip_tool_window_draw_frames(&tw, "aa=none", "aa=4", 1);
+        dip_tool_window_draw(&tw);
+        dip_tool_window_update(&tw);
+        dip_tool_window_update(&tw);
+        assert_int_equal(dip_maps_work(maps, DIP_PANE_REQUESTED)->draws, i > 0);
+        assert_int_equal(maps->key.pose.position_world[0] == tw.pose.position_world[0], i > 0);
+    }
+    dip_tool_window_close(&tw);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_palettes_are_the_published_ones),
@@ -407,6 +428,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(the_pictures_show_the_work, open_stage, close_stage),
         cmocka_unit_test(the_ends_of_the_mip_colours_say_that_they_are_open),
         cmocka_unit_test(a_chosen_map_lies_over_the_panes),
+        cmocka_unit_test(the_open_tab_is_measured_without_maps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
