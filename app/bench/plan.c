@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Gives every empty list its one value.
+// Gives each axis without values its default (plan.h), replaces 0 threads by the number of
+// processors, and chooses the seed.
 static void fill_in(DipBenchOptions *options, const DipSession *session) {
     const DipConfig *config = &session->config;
     int *counts = options->counts;

@@ -11,23 +11,24 @@
 // Prints text and escapes the characters that have a meaning in roff. A blank line starts a new
 // paragraph.
 static void print_text(const char *text, FILE *out) {
-    static const char specials[] = "\\-~^`'";
-    static const char *const escapes[] = {"\\e", "\\-", "\\(ti", "\\(ha", "\\(ga", "\\(aq"};
-    if (*text == '.' || *text == '\'') {
-        fputs("\\&", out);
-    }
+    static const char specials[] = "\\-~^`'\"";
+    static const char *const escapes[] = {"\\e",   "\\-",   "\\(ti", "\\(ha",
+                                          "\\(ga", "\\(aq", "\\(dq"};
+    bool line_begins = true;
     for (; *text; text++) {
         if (strncmp(text, "\n\n", 2) == 0) {
             fputs("\n.PP\n", out);
             text++;
+            line_begins = true;
             continue;
         }
         const char *special = strchr(specials, *text);
         if (special) {
             fputs(escapes[special - specials], out);
         } else {
-            fputc(*text, out);
+            fprintf(out, "%s%c", line_begins && *text == '.' ? "\\&" : "", *text);
         }
+        line_begins = *text == '\n';
     }
 }
 

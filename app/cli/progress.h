@@ -1,5 +1,5 @@
 // Shows on standard error how much of its work a long command has done. Lets Ctrl-C end the command
-// once the current frame or measurement is done. Times frames in a command in this way.
+// once the current frame or measurement is done. Does both while a driver times frames (dip_drive).
 #ifndef DIP_APP_CLI_PROGRESS_H
 #define DIP_APP_CLI_PROGRESS_H
 

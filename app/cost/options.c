@@ -1,5 +1,5 @@
-// Reads and checks the options of `diptych cost`, and declares options that other commands on
-// reports share.
+// Reads and checks the options of `diptych cost`, and defines tables of options that other commands
+// share.
 #include "app/cost/options.h"
 
 #include "app/measure/metrics/truth.h"

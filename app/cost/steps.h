@@ -133,9 +133,9 @@ enum { DIP_COST_COUNTED_FRAMES = 8 };
 
 // Returns how many combinations are measured to predict `count` combinations of these settings. The
 // combinations of the sweeps are part of this number. Bit s of `settings` stands for setting s.
-// Antialiasing and anisotropic filtering with their advanced variants need 16, or 20 if adaptive AA
-// is among the settings. Every other setting needs three more for each two steps after its first.
-// Returns at most `count`.
+// The number is 16, or 20 if adaptive AA is among the settings; this covers aa, aaa, asd, af and
+// aaf. Every other setting adds three for each two steps after its first, rounded up. Returns at
+// most `count`.
 int dip_cost_training_count(unsigned settings, int count);
 
 // Chooses the combinations to time: those that tell most about the price of each kind of work
@@ -255,7 +255,7 @@ void dip_cost_elsewhere_begin(DipCostReport *there, const DipCostReport *report,
 // report's path 0, which is drawn in the context `cost`. Fills in their times and counters.
 // `progress` is the text of the progress display, such as "smaller frames timed". Sets *wait to the
 // share of the threads' time in these frames for which they waited for a core. Fails with MEMORY,
-// as the renderer does, and with RUNTIME after Ctrl-C.
+// with RUNTIME after Ctrl-C, and with the renderer's error if a frame cannot be drawn.
 bool dip_cost_time_elsewhere(DipCostContext *cost, DipCostContext *there, DipCostElsewhere *rows,
                              int count, const char *progress, double *wait, DipError *err);
 

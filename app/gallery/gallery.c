@@ -37,7 +37,7 @@ struct DipGalleryPane {
     uint64_t frame_index;
     DipPipeline *pipeline;
     DipTarget target;
-    DipFinish *finish; // The filters that the settings ask for.
+    DipFinish *finish; // The filters of finished pictures that the settings ask for.
 };
 
 // --- the list ------------------------------------------------------------------------------------
@@ -345,7 +345,7 @@ bool dip_gallery_pane_draw(DipGalleryPane *pane, const DipPose *pose, int64_t ti
     DipPipelineCounters counters = {0};
     DipStageTimes times = {0};
     DipQuality quality = pane->quality;
-    quality.step[DIP_SETTING_SCALE] = DIP_SCALE_1; // A gallery scene is drawn at its own size.
+    quality.step[DIP_SETTING_SCALE] = DIP_SCALE_1; // A scene is drawn at the pane's size.
     if (dip_quality_has_history(&quality)) {
         quality.step[DIP_SETTING_TAA] = DIP_TAA_OFF; // A gallery scene has no history.
     }

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 
 // Adds one combination of the other settings to the sums of an interaction. `neither` is the
-// combination with the first steps of a and b. Adds nothing if one of the four combinations has no
-// row, for example because the renderer refuses it or a setting in it has no effect.
+// combination with the first steps of a and b; three more have the last step of a, of b, or of
+// both. Adds nothing if one of the four has no row, for example because the renderer refuses it or
+// a setting in it has no effect.
 static void add_context(const DipCostReport *report, const DipQuality *neither,
                         DipCostInteraction *to) {
     enum { NEITHER, A, B, BOTH };

@@ -87,8 +87,9 @@ static int row_before(const DipCostReport *report, const DipCostSweep *sweep, in
 }
 
 // Returns the index of the first step that does not follow theory, or sweep->row_count if all steps
-// do. Checks the work if `by_work` is true, otherwise the error. Sets *judged to false if the
-// errors of a step are not known.
+// do. Checks the work if `by_work` is true, otherwise the error. If theory->idle is set, a step
+// that draws the same pictures as the step with which it is compared also follows theory. Sets
+// *judged to false if the errors of a step are not known.
 static int first_departure(const DipCostReport *report, const DipCostSweep *sweep,
                            const Theory *theory, bool by_work, bool *judged) {
     for (int i = 1; i < sweep->row_count; i++) {

@@ -18,7 +18,7 @@ typedef struct Work {
     double covers;      // 1 if alpha decides how many samples a clipped surface covers.
     double anisotropic; // 1 with anisotropic filtering.
     double exact;       // 1 with advanced AF.
-    double full_levels; // 1 if the finest mip levels are read.
+    double full_levels; // 1 if miplod has no bias towards smaller mip levels.
     double raw;         // 1 if colour textures are not compressed.
     double advanced;    // 1 with opt=advanced.
     double scaled;      // 1 if a larger picture is drawn and averaged.
@@ -37,10 +37,10 @@ typedef struct Work {
 
 #define C(name) (w->counters[DIP_COUNTER_##name])
 
-// All combinations of a scene pose the same number of vertices, so a fit cannot separate the time
-// of posing them from the constant time of a frame. In scenes with posed vertices, the term "frame"
-// is therefore 0, and the price of the vertices includes the constant time, which is below 0.001
-// ms.
+// In one scene, all combinations of settings pose the same number of vertices, so a fit cannot
+// separate the time of posing them from the constant time of a frame. In scenes with posed
+// vertices, the term "frame" is therefore 0, and the price of the vertices includes the constant
+// time, which is below 0.001 ms.
 #define GEOMETRY_TERMS(X)                                                                          \
     X("frame", C(vertices_posed) > 0.0 ? 0.0 : 1.0)                                                \
     X("vertex posed", C(vertices_posed))                                                           \

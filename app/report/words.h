@@ -44,7 +44,7 @@ void dip_flip_number(double flip, bool change, const char *minus, char text[DIP_
 void dip_budget_ms_text(double budget_ms, char text[DIP_NUMBER_BYTES]);
 
 // Writes a time budget as the start of a sentence: "At 60 frames a second (16.7 ms)" for usual
-// frame rates (24 to 240 frames a second), otherwise "Within 8 ms a frame".
+// frame rates such as 24, 60 and 144 frames a second, otherwise "Within 8 ms a frame".
 void dip_budget_text(double budget_ms, char text[DIP_BUDGET_BYTES]);
 
 // Writes the probability that something fits a budget: "99 %", or "unknown" for NAN. Writes 100 %

@@ -30,7 +30,9 @@ typedef struct Frame {
     size_t text_capacity;
     int width;
     int height;
-    bool complete; // False if memory ran out while the frame was recorded or painted.
+    // Of a recorded frame: false if memory ran out. Of the painted frame: false if the canvas may
+    // show something else, so that the next frame is painted whole.
+    bool complete;
 } Frame;
 
 struct DipDrawList {

@@ -6,9 +6,10 @@
 #include <stdbool.h>
 
 // Codes of keys. If a key types a character, its code is that character's Unicode code point, in
-// lower case and without modifiers: 'a', '1', '.'. The other keys have the values below, beyond all
-// code points. The keypad's digits, Enter, and the keys + - * / and . have the same codes as the
-// main keyboard's. In a window, the keypad's other keys that type characters, such as = and the
+// lower case and without modifiers: 'a', '1', '.'. In a terminal, Shift changes this code, except
+// for the letters a to z: Shift+1 has the code '!'. The other keys have the values below, beyond
+// all code points. The keypad's digits, Enter, and the keys + - * / and . have the same codes as
+// the main keyboard's. In a window, the keypad's other keys that type characters, such as = and the
 // comma, have no code (DIP_KEYCODE_NONE).
 typedef enum DipKeycode {
     DIP_KEYCODE_NONE = 0,
@@ -119,7 +120,7 @@ typedef struct DipEvent {
                          // keys and in a terminal, `key`.
     bool repeat;         // KEY_DOWN: the key is held and repeats itself.
 
-    // Mouse events: where the pointer is, in pixels of the picture.
+    // Mouse events: where the pointer is, in pixels of the whole picture that the display shows.
     int x;
     int y;
     DipMouseButton button; // MOUSE_DOWN and MOUSE_UP: the button.

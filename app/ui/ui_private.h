@@ -27,7 +27,8 @@ struct DipUi {
     int before_count;
     DipUiId under;      // The topmost control under the pointer, or 0.
     DipUiId hovered;    // The control under the pointer at the end of the last pass.
-    int64_t hovered_ns; // When the pointer came over that control.
+    int64_t hovered_ns; // When the pointer came over that control; earlier if tip_asked, so that
+                        // the tip shows at once.
     DipUiId held;       // The control over which a held mouse button was pressed, or 0.
     DipMouseButton held_button;
     double wheel_rest; // The part of a step that the wheel has turned after its last whole step.

@@ -56,7 +56,9 @@ static struct {
 static volatile sig_atomic_t active; // True while the terminal must be restored.
 static volatile sig_atomic_t quits;  // Number of signals that asked the program to quit.
 static volatile sig_atomic_t came[SIGNAL_COUNT]; // True for a signal that is not reported yet.
-static char signal_stack[SIGNAL_STACK_BYTES];    // Handlers of crashes run on this stack.
+// Handlers of crashes run on this stack in the thread that entered the mode, unless that thread had
+// such a stack already.
+static char signal_stack[SIGNAL_STACK_BYTES];
 
 // --- restoring ---------------------------------------------------------------------------------
 // Signal handlers call the functions of this part, so they use async-signal-safe functions only.

@@ -12,9 +12,10 @@
 // now: a lone escape character is then the Escape key, and a sequence that breaks off is dropped.
 //
 // Key presses are KEY_DOWN events. A terminal reports neither releases nor positions of keys: the
-// event's position is the key's code. Shift is known for letters and for keys without a character.
-// Ctrl+C and Ctrl+Z end and suspend the program, so Alt stands for Ctrl with these two letters.
-// Bytes that mean nothing to the preview are taken as an event of kind NONE.
+// event's position is the key's code. Shift is known for the letters A to Z, and for keys whose
+// escape sequence tells it. Ctrl+C and Ctrl+Z end and suspend the program, so Alt stands for Ctrl
+// with these two letters. Bytes that mean nothing to the preview are taken as an event of kind
+// NONE.
 int dip_terminal_keys_read(const uint8_t *bytes, int count, bool ended, DipEvent *event);
 
 // --- terminal_mode.c -----------------------------------------------------------------------------

@@ -28,7 +28,7 @@ static float four_steps(float intensity) {
 }
 
 // Rounds an intensity 0..1 down to a multiple of step_size / 256, as the seed's variable banding
-// does.
+// does. An intensity less than 0.1 / 256 below a multiple counts as this multiple.
 static float banded(float intensity, int step_size) {
     const int band = (int)(intensity * 256.0f + 0.1f) / step_size;
     return (float)(band * step_size) / 256.0f;

@@ -1,8 +1,9 @@
 // Computes the metrics by which pictures are judged, from sums over their pixels.
 //
 // A burst is a series of successive frames (flicker.h). Sums of several pictures, bursts or
-// machines can be added. The metrics of the total are then means over all pixels of all pictures.
-// All functions are thread-safe.
+// machines can be added. The metrics of the total then follow from means over all pixels of all
+// pictures (SSIM: all pixels that have a value; flicker: all bursts). All functions are
+// thread-safe.
 #ifndef DIP_APP_MEASURE_METRICS_METRICS_H
 #define DIP_APP_MEASURE_METRICS_METRICS_H
 

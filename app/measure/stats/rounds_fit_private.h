@@ -39,16 +39,16 @@ typedef struct DipTimesCell {
     double trust; // Weight in the fit, 0 to 1, by how well the time agrees with the fit.
 } DipTimesCell;
 
-// What the fit finds for a base. `variance` and `pooled` say how much the logarithm of each
-// DipTimesValue varies from unit to unit. The part of this variance that moves all subjects of the
-// base alike belongs to the base; the rest belongs to the single subjects.
+// What the fit finds for a base. The logarithm of each DipTimesValue varies from unit to unit. The
+// part of this variance that moves all subjects of the base alike is `variance` here; the rest
+// belongs to the single subjects (DipTimesSubject.variance), and `pooled` is its mean.
 typedef struct DipTimesBase {
     double level_ms;      // Mean time of the base's frames.
     double level_error;   // Standard error of the logarithm of level_ms; NAN if it is not known.
     double level_degrees; // Degrees of freedom of level_error.
-    // Mean of DipTimesSubject.variance over the subjects of the base.
+    // Mean of DipTimesSubject.variance over the other subjects of the base whose moves are known.
     double pooled[DIP_TIMES_VALUE_COUNT];
-    double pooled_degrees;                  // Degrees of freedom for which `pooled` counts.
+    double pooled_degrees;                  // Weight of `pooled` in own_variance (rounds.c).
     double variance[DIP_TIMES_VALUE_COUNT]; // The base's part of the variance.
 } DipTimesBase;
 
@@ -112,7 +112,7 @@ typedef struct DipTimesWork {
 #define DIP_TIMES_BASE_DEGREES 1.0
 
 // Standard error of a logarithm that is added to every estimate. It stands for errors that are the
-// same in all units of a log, so that no difference between units shows them.
+// same in all units of a measurement, so that no difference between units shows them.
 #define DIP_TIMES_LEAST_ERROR 0.001
 
 // The standard deviation of normally distributed values is this many times the median of their

@@ -155,7 +155,7 @@ static double predict_levels(const double *level, int frames, int reach, double 
     return squares;
 }
 
-// Returns the number of neighbours on either side that predicts the levels best.
+// Returns which of 1, 2, 4, 8 and 16 neighbours on either side predict the levels best.
 static int choose_reach(DipTimesWork *w, const double *level) {
     int best = 1;
     double least = INFINITY;
@@ -172,8 +172,9 @@ static int choose_reach(DipTimesWork *w, const double *level) {
 // Replaces each level by the weighted mean of the level and the prediction from its neighbours. The
 // weights are the inverse variances of the two. `noise` is the variance of the levels' noise. A
 // prediction is wrong because the neighbours are noisy and because the levels change along the
-// path; its variance is estimated as the mean squared difference from the levels, minus `noise`.
-// Returns by how much the variance of the true levels exceeds that of the new levels.
+// path; its variance is estimated as the mean squared difference from the levels, minus `noise`,
+// but as at least noise / (2 * reach), the noise of the mean of the neighbours. Returns by how much
+// the variance of the true levels exceeds that of the new levels.
 static double join_neighbours(DipTimesWork *w, int reach, double noise, double *level) {
     const int frames = w->times->frames;
     if (frames < 3 || !(noise > 0.0)) { // Too few neighbours, or the noise is not known.

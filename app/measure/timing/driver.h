@@ -1,4 +1,5 @@
-// Times frames. Every command that times frames uses this driver.
+// Times frames. Every measurement that compares times of frames uses this driver. (`diptych dump`
+// and the preview also say how long each drawn frame took.)
 //
 // A subject is anything that draws the frames of a path, for example the renderer with one set of
 // quality settings. Each subject is compared with another subject, its base. A base is its own
@@ -13,18 +14,19 @@
 //   3. Rounds. A round draws some or all frames of the path with every subject. Frames are dealt to
 //      rounds at random (app/measure/stats/rounds.h), or each round draws all of them. In each
 //      round, the subjects of a base are divided at random into blocks. A block consists of a few
-//      subjects and the base, in random order. A visit draws the round's frames of one subject and
-//      times each: first the frames that all subjects draw, in path order, and then, for a base, a
-//      share of the frames that only the base draws. Before these frames, the visit draws the first
-//      of them untimed, because the previous subject has used the caches. A block visits each of
-//      its subjects once (but see in_turn).
+//      subjects and the base, in random order. A visit draws the round's frames of one subject, in
+//      path order, and times each. If base_copies is above 1, the round also has frames that only
+//      the base draws; the visits of the base divide them evenly and draw them last. A visit first
+//      draws its first frame untimed, because the previous subject has used the caches. A block
+//      visits each of its subjects once (but see in_turn).
 //   4. Repetition. A frame is disturbed if its threads, or those that drew the same frame of the
 //      base, waited too long for a core. The driver repeats rounds that have disturbed frames, each
-//      at most once. A repetition draws a subject, next to its base, if one of the subject's frames
-//      in the round is disturbed, and more than a quarter of all its frames are. The new time of a
-//      disturbed frame replaces the old one if its threads and those of the base's frame together
-//      waited less than before. The phase ends early when most frames of two rounds in a row are
-//      disturbed again, since the machine is still busy.
+//      at most once. A repetition draws a subject, next to its base, if a frame of the subject is
+//      disturbed in the round and more than a quarter of the subject's frames are disturbed in the
+//      whole measurement. The new time of a subject's disturbed frame replaces the old one if its
+//      threads and those of the base's frame together waited less than before; the base keeps its
+//      old time and gets the new one as well. The phase ends early when most frames of two rounds
+//      in a row are disturbed again, since the machine is still busy.
 //
 // A driver draws one frame per step, so the preview can stop between any two frames. Commands step
 // until the driver is done.
@@ -60,8 +62,9 @@ typedef struct DipDriverDef {
     uint64_t seed;   // Seed of all random orders.
     bool settle;     // True to run phase 2.
     // True if the subjects of a block take turns after every frame, in an order that is shuffled
-    // for each frame. Each frame then follows a frame of another subject, so that none finds warm
-    // caches. A visit then has one frame, and no frame is drawn untimed before it.
+    // for each frame. Most frames then follow a frame of another subject; the last subject of one
+    // order may be the first of the next. A visit then has one frame, and no frame is drawn untimed
+    // before it.
     bool in_turn;
     // Pause before each timed frame, so that threads of other processes fall asleep.
     int64_t rest_ns;
@@ -69,10 +72,10 @@ typedef struct DipDriverDef {
     // the frame's time, or if this holds for the base's frame beside it. If most_wait is 0, no
     // frame counts as disturbed.
     double most_wait;
-    // If the first of more than 2 starts takes more than this share of the time of its rounds
-    // (estimated from the first round), the driver makes only 2 starts with the same total number
-    // of rounds, provided that this number is even. If most_start is 0, the number of starts is
-    // always `starts`.
+    // The driver makes only 2 starts instead of more, with the same total number of rounds, if this
+    // number is even and beginning the first start (with its untimed frames) takes long: more than
+    // this share of the time of the start's rounds, estimated from the first round. If most_start
+    // is 0, the number of starts is always `starts`.
     double most_start;
 } DipDriverDef;
 

@@ -42,9 +42,9 @@ struct DipPriceJob {
     DipDriver *driver; // Times the members; NULL if no block is being timed.
     Member members[VISITS];
     int member_count;
-    int rounds_before; // Rounds that the members had when the block began.
+    int rounds_before; // Rounds that the members except the base had when the block began.
 
-    int rounds_of[DIP_PRICES_LIVE_ROWS]; // Rounds in which each row was timed.
+    int rounds_of[DIP_PRICES_LIVE_ROWS]; // Rounds in which each row except the base's was timed.
     int blocks;                          // Blocks that are complete.
     double drawn_ms;                     // Time of drawing all frames since dip_price_job_forget.
     int drawn;                           // Number of these frames.
@@ -205,8 +205,8 @@ static bool begin_block(DipPriceJob *job) {
     return !job->failed;
 }
 
-// Adds the block's times to the report's log. If its members were timed before, their new rounds
-// are numbered after the old ones.
+// Adds the block's times to the report's log. Their rounds are numbered after those that the
+// members except the base had before. The base has rounds of the same numbers in several blocks.
 static bool log_block(DipPriceJob *job, const int rows[VISITS], DipError *err) {
     DipCostReport *report = dip_prices_live(job->prices);
     const DipTimes times = dip_driver_times(job->driver);

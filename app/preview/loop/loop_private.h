@@ -94,7 +94,7 @@ enum { DIP_LOOP_LONGEST_STEP_NS = 250000000 };
 
 // Draws the frames of both panes. If memory runs out for a new size or for new settings, a notice
 // says so, and the panes keep the old size or settings. Fails with MISSING if there is no camera
-// path.
+// path and the user does not fly the camera.
 bool dip_loop_draw_panes(DipPreview *preview, DipError *err);
 // Returns whether a pane's sample patterns alternate (taa=alternate), so that its picture changes
 // from frame to frame even at rest.
@@ -122,8 +122,8 @@ void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);
 
 // --- loop_measure.c ------------------------------------------------------------------------------
 
-// Gives the maps (app/preview/tools/maps.h) a reading of the error thread, and this thread's newest
-// pictures.
+// Gives the maps (app/preview/tools/maps.h) a reading of the error thread, and the newest pictures
+// of the error thread.
 void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading);
 // Measures errors while the window, another program or the prices need them, and camera and scene
 // rest. Returns whether the errors or their status are new.

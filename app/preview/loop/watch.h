@@ -19,14 +19,15 @@ void dip_watch_destroy(DipWatch **watch);
 
 // These functions replace the list of watched files. Call dip_watch_begin_list, then dip_watch_file
 // and dip_watch_folder for each entry, then dip_watch_end_list. An entry that was in the old list
-// keeps its stamp, so that no change is missed. The files need not exist. If memory runs out, an
-// entry is left out.
+// is still compared with its state at the last look, so that no change is missed. The files need
+// not exist. If memory runs out, an entry is left out.
 void dip_watch_begin_list(DipWatch *watch);
 void dip_watch_end_list(DipWatch *watch);
 void dip_watch_file(DipWatch *watch, const char *file);
 
 // Watches the models, and the files that models use, in the folder of a file and in that folder's
-// direct subfolders. Ignores other kinds of files and the preview's screenshots.
+// direct subfolders. Ignores other kinds of files, hidden files and folders, and files whose names
+// begin with "diptych-", as those of screenshots do. Looks at no more than 2048 names of a folder.
 void dip_watch_folder(DipWatch *watch, const char *file);
 
 // Looks at the files if a quarter of a second has passed since the last look. Returns true once

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// The mark before rough times, which come from a few frames.
+// The mark before rough times, which come from a few frames or from adding prices.
 #define DIP_ROUGH_MARK "\u2248 "
 
 // What stands in the place of a number or a picture that is not known yet.
@@ -17,8 +17,9 @@
 enum { DIP_STEP_NAME_BYTES = 24, DIP_STEP_TEXT_BYTES = 900 };
 
 // Writes a number as dip_number_text does (app/report/words.h), with the sign U+2212 if it is
-// negative. All negative numbers of the window and of the panel in characters have this sign: they
-// are written by this function, by dip_ms_text or by dip_flip_text.
+// negative. All negative numbers in the window, and in the panel of a display that shows
+// characters, have this sign: they are written by this function, by dip_ms_text or by
+// dip_flip_text.
 void dip_panel_number(double value, int decimals, bool change, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a time without its unit as dip_ms_number does (app/report/words.h): "8.4", or "8?" if it
@@ -28,7 +29,7 @@ void dip_ms_text(double ms, DipPriceTrust trust, double budget_ms, char text[DIP
 // Writes a price's time without its unit, by its trust: "+1.2", "≈ +1.2" if it is rough, "~+1.2" if
 // a model predicts it, "+1?" if it is doubtful, "≈ 0", or "base". If the time is unknown, writes
 // dots, or a dash if the setting has no effect without another setting. Rounding never carries the
-// whole time with the step over the budget.
+// time of a frame with the step (the price and the time without the step) over the budget.
 void dip_price_ms_text(const DipPrice *price, double budget_ms, char text[DIP_STEP_NAME_BYTES]);
 
 // Writes a FLIP error without the zero before the point: ".0354". If `change` is true, the number

@@ -1,4 +1,4 @@
-// Draws symbols from strokes on a grid of 16x16 units.
+// Draws symbols, most of them from strokes on a grid of 16x16 units.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 

@@ -28,9 +28,9 @@ typedef struct DipLayout {
 } DipLayout;
 
 // Returns the scale of text and controls in a window of this height in pixels. The scale is the one
-// that the display reports (display_scale), times tools->ui_scale. Unless --ui-scale is given,
-// display_scale counts as at least height / 1080, rounded down to a multiple of 0.25. So text stays
-// legible on a display with small pixels that reports a scale of 1.
+// that the display reports (display_scale), times tools->ui_scale. display_scale counts as at least
+// 1 and, unless --ui-scale is given, as at least height / 1080, rounded down to a multiple of 0.25.
+// So text stays legible on a display with small pixels that reports a scale of 1.
 double dip_layout_scale(double display_scale, const DipToolState *tools, int height);
 
 // Lays a window out. scale: from dip_layout_scale. open: the dock shows a tab. bare: the window

@@ -42,7 +42,8 @@ void dip_section_measured(DipForm *form, const DipCostReport *report);
 // predicted.
 void dip_section_predictions(DipForm *form, const DipCostReport *report);
 
-// Writes misses as a fact: their median and 90th percentile. Writes nothing if there are no misses.
+// Writes how far predictions were from measurements (the median and the 90th percentile) as a fact
+// with the term `what`. Writes nothing if there are no misses.
 void dip_section_misses(DipForm *form, const char *what, const DipCostMisses *misses);
 
 // Writes for pairs of settings how the effect of both together compares with the effects of each

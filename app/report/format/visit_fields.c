@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The greatest number of measured times in a file, divided by the product of the number of its rows
-// and the number of frames of a path. Real reports have fewer. A frame has several measured times
-// if its row was timed again for advice, or if the row is a baseline, whose frames are timed in
-// every block (app/measure/timing/driver.h).
+// A file may have at most this many measured times for each row and frame of a path, on average.
+// Real reports have fewer. A frame has several measured times if its row was timed again for
+// advice, or if the row is a baseline, whose frames are timed in every block
+// (app/measure/timing/driver.h).
 enum { MOST_TIMES = 64 };
 
 // A visit (app/measure/timing/driver.h): successive frames of the log that have the same row,

@@ -8,9 +8,9 @@
 // no effect alone is priced together with its company: the settings that it needs, which are then
 // set both with the step and without it (view.h). AF and advanced AF are also priced together with
 // the antialiasing of the pane (one of the preview's two pictures), so that prices add up. If this
-// price was not measured, another price stands for it, if more is known of that one: the price with
-// the pane's AA but the base's adaptive AA, or the price with the base's antialiasing. The first of
-// these two is preferred if equally much is known of both.
+// price was not measured, two others may replace it: first the price with the pane's AA but the
+// base's adaptive AA, then the price with the base's antialiasing. Of the three, the one of which
+// most is known is taken, and the earliest of them if equally much is known.
 //
 // A combination without a row is predicted: by the report's own predictions, otherwise by the
 // models of times and errors (fit.h) from its composed work (combinations.h). If there are too few
@@ -37,8 +37,8 @@ typedef enum DipPriceState {
 typedef enum DipPriceTrust {
     DIP_PRICE_TRUST_UNKNOWN,  // There is no number.
     DIP_PRICE_TRUST_DOUBTFUL, // The interval is too wide, or the machine was too busy. The time is
-                              // shown with one significant digit and "?". It has no bar of its own
-                              // in the preview's panel, where the bar of the rest includes it.
+                              // shown with one significant digit and "?". In the preview's bar of a
+                              // sum, it has no part of its own: the hatched part includes it.
     DIP_PRICE_TRUST_ZERO,     // The time is 0 as far as anyone can tell: "≈ 0".
     DIP_PRICE_TRUST_KNOWN
 } DipPriceTrust;

@@ -241,6 +241,27 @@ static void manual_has_every_option(void **state) {
     for_each_row(check_manual);
 }
 
+// In roff, a line that begins with '.' or "'" is a request, and '"' groups the arguments of a
+// macro.
+static void manual_escapes_text(void **state) {
+    (void)state;
+    static const DipExample example = {"diptych say \"a;b\"", "says\n.a"};
+    static const DipOptionParts no_parts = {0};
+    static const DipCommand say = {.name = "say",
+                                   .usage = "WORD",
+                                   .text = ".b\n.c.\n'd\n\n.e",
+                                   .examples = &example,
+                                   .example_count = 1,
+                                   .parts = &no_parts};
+    static const DipCommand *const commands[] = {&say};
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    dip_manual_print(&(DipCommandList){.commands = commands, .count = 1}, file);
+    const char *text = read_back(file);
+    assert_non_null(strstr(text, "\n.SS diptych say\n\\&.b\n\\&.c.\n\\(aqd\n.PP\n\\&.e\n.PP\n"));
+    assert_non_null(strstr(text, "\n.B diptych say \\(dqa;b\\(dq\nsays\n\\&.a\n"));
+}
+
 static void help_of_a_group_has_its_commands(void **state) {
     (void)state;
     DipCommandLine line;
@@ -348,6 +369,7 @@ int main(void) {
         cmocka_unit_test(help_of_a_command_has_its_options),
         cmocka_unit_test(help_fits_a_terminal_of_80_columns),
         cmocka_unit_test(manual_has_every_option),
+        cmocka_unit_test(manual_escapes_text),
         cmocka_unit_test(help_of_a_group_has_its_commands),
         cmocka_unit_test(mistyped_commands_are_refused),
         cmocka_unit_test(quick_changes_what_is_not_given),
