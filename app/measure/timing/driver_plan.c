@@ -48,7 +48,8 @@ static void list_frames(DipDriver *d, int round) {
 }
 
 // Finds the subjects that the round draws. A repetition draws a subject if it has a disturbed frame
-// in the round and if less than three quarters of all its frames are undisturbed.
+// in the round and if less than three quarters of its frames in the whole measurement are
+// undisturbed.
 static void find_needed(DipDriver *d, int round) {
     for (int s = 0; s < d->def.subjects; s++) {
         d->is_needed[s] = !dip_driver_repeats(d);
