@@ -71,6 +71,10 @@ typedef struct DipDraw {
     // triangle to triangle, so that large coordinates keep their precision near the eye.
     // Derivatives do not change.
     uint32_t repeating_varyings;
+    // Bit s: varying s is the clip coordinate w. At the new corners of triangles that are cut, the
+    // pipeline then sets it to their w, which interpolation in floats misses where a triangle that
+    // reaches far away passes close by the eye.
+    uint32_t w_varyings;
     const void *uniforms;
     const DipSampler *samplers; // at most DIP_MAX_SAMPLERS
     // 4x4 matrix, row-major, that takes mesh positions to clip space. The pipeline uses it to cull

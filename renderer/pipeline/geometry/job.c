@@ -262,7 +262,8 @@ static void add_clipped(JobRun *run, const uint8_t corner[3], uint32_t patch, in
             clip[c][i] = polygon.vertex[i].projected[c];
         }
         for (int s = 0; s < varying_count; s++) {
-            varyings[s][i] = (float)polygon.vertex[i].varying[s];
+            varyings[s][i] = run->draw->w_varyings >> s & 1 ? polygon.vertex[i].projected[3]
+                                                            : (float)polygon.vertex[i].varying[s];
         }
         fan[1][i] = (uint8_t)(i + 1 < polygon.count ? i + 1 : 0);
         fan[2][i] = (uint8_t)(i + 2 < polygon.count ? i + 2 : 0);

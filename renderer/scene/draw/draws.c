@@ -324,6 +324,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
                              : NULL;
     set_lights(input, object, pass->shadow ? &set->shadow : NULL, uniforms, draw);
     set_effect(input, mesh, uniforms, draw);
+    draw->w_varyings = uniforms->depth_varying == DIP_ABSENT ? 0 : 1u << uniforms->depth_varying;
     if (pass->shown && material->surface == DIP_SURFACE_WATER) {
         set_reflecting(input, pass, set);
     }
