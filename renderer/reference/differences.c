@@ -66,6 +66,7 @@ bool dip_reference_share_differences(DipReference *reference, DipError *err) {
     DIP_FP_MODE_SCOPE();
     bool rounded = true;
     reference->differs = true;
+    dip_reference_pbr_prepare_few();
     for (int t = 0; rounded && t < reference->def->texture_count; t++) {
         rounded = dip_reference_round_texture(&reference->textures[t], err);
     }

@@ -355,6 +355,7 @@ static void describe_pbr(const DipReference *reference, const DipMeshDef *mesh,
         return;
     }
     like->pbr = pbr;
+    like->few_entries = reference->differs;
     like->environment = reference->environment;
     if (pbr->metal_rough_map != DIP_NO_TEXTURE && mesh->uv0) {
         like->metal_rough = &reference->textures[pbr->metal_rough_map];

@@ -6,17 +6,20 @@
 
 static const double pi = 3.14159265358979323846;
 
-// Steps of the tables along each axis, and of the integrals along each of their two axes.
-enum { STEPS = 64, INTEGRAL_STEPS = 24 };
+// Steps of the tables along each axis, of those that have as few as the fast renderer's, and of the
+// integrals along each of their two axes.
+enum { STEPS = 64, FEW_STEPS = 32, INTEGRAL_STEPS = 24 };
 
-// Shares of reflected light. Entry i of an axis is the value at (i + 0.5) / STEPS.
+// Shares of reflected light. Entry i of an axis is the value at (i + 0.5) / steps.
 typedef struct Tables {
+    int steps;              // at most STEPS
     double a[STEPS][STEPS]; // over roughness and n.v
     double b[STEPS][STEPS];
     double grazing[STEPS]; // over n.v
 } Tables;
 
-static Tables tables;
+static Tables tables = {.steps = STEPS};
+static Tables few_tables = {.steps = FEW_STEPS};
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -69,30 +72,38 @@ static void add_lobe(const double view[3], double alpha, double u, double w, dou
     }
 }
 
-static void fill_entry(int r, int v) {
+static void fill_entry(Tables *out, int r, int v) {
     const double count = INTEGRAL_STEPS * INTEGRAL_STEPS;
-    const double roughness = (r + 0.5) / STEPS;
-    const double cosine = (v + 0.5) / STEPS;
+    const double roughness = (r + 0.5) / out->steps;
+    const double cosine = (v + 0.5) / out->steps;
     const double view[3] = {sqrt(1.0 - cosine * cosine), 0.0, cosine};
     for (int i = 0; i < INTEGRAL_STEPS * INTEGRAL_STEPS; i++) {
         const double u = (i / INTEGRAL_STEPS + 0.5) / INTEGRAL_STEPS;
         const double w = (i % INTEGRAL_STEPS + 0.5) / INTEGRAL_STEPS;
-        add_lobe(view, fmax(roughness * roughness, 1e-4), u, w, &tables.a[r][v], &tables.b[r][v]);
+        add_lobe(view, fmax(roughness * roughness, 1e-4), u, w, &out->a[r][v], &out->b[r][v]);
         if (r == 0) {
             const double light[3] = {sqrt(w) * cos(2.0 * pi * u), sqrt(w) * sin(2.0 * pi * u),
                                      sqrt(1.0 - w)};
             const double v_h = sqrt(0.5 * (1.0 + dot(view, light)));
-            tables.grazing[v] += pow(1.0 - v_h, 5.0) / count;
+            out->grazing[v] += pow(1.0 - v_h, 5.0) / count;
         }
     }
-    tables.a[r][v] /= count;
-    tables.b[r][v] /= count;
+    out->a[r][v] /= count;
+    out->b[r][v] /= count;
+}
+
+static void fill(Tables *out) {
+    for (int i = 0; i < out->steps * out->steps; i++) {
+        fill_entry(out, i / out->steps, i % out->steps);
+    }
 }
 
 static void fill_tables(void) {
-    for (int i = 0; i < STEPS * STEPS; i++) {
-        fill_entry(i / STEPS, i % STEPS);
-    }
+    fill(&tables);
+}
+
+static void fill_few_tables(void) {
+    fill(&few_tables);
 }
 
 void dip_reference_pbr_prepare(void) {
@@ -100,27 +111,41 @@ void dip_reference_pbr_prepare(void) {
     pthread_once(&once, fill_tables);
 }
 
+void dip_reference_pbr_prepare_few(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, fill_few_tables);
+}
+
+// Finds where a value lies among the entries of an axis: the entry before it, and the share of the
+// next one.
+static int find_entry(int steps, double value, double *share) {
+    const double at = fmin(fmax(value * steps - 0.5, 0.0), steps - 1.0);
+    const int entry = (int)fmin(at, steps - 2.0);
+    *share = at - entry;
+    return entry;
+}
+
 // Reads between entries. fast: position on the axis whose entries follow each other.
-static double interpolate(double (*table)[STEPS], double slow, double fast) {
-    const double at[2] = {fmin(fmax(slow * STEPS - 0.5, 0.0), STEPS - 1.0),
-                          fmin(fmax(fast * STEPS - 0.5, 0.0), STEPS - 1.0)};
-    const int r = (int)fmin(at[0], STEPS - 2.0);
-    const int v = (int)fmin(at[1], STEPS - 2.0);
-    const double dr = at[0] - r, dv = at[1] - v;
+static double interpolate(const double (*table)[STEPS], int steps, double slow, double fast) {
+    double dr;
+    double dv;
+    const int r = find_entry(steps, slow, &dr);
+    const int v = find_entry(steps, fast, &dv);
     return (1.0 - dr) * ((1.0 - dv) * table[r][v] + dv * table[r][v + 1]) +
            dr * ((1.0 - dv) * table[r + 1][v] + dv * table[r + 1][v + 1]);
 }
 
-static double interpolate_row(const double row[STEPS], double value) {
-    const double at = fmin(fmax(value * STEPS - 0.5, 0.0), STEPS - 1.0);
-    const int i = (int)fmin(at, STEPS - 2.0);
-    return row[i] + (row[i + 1] - row[i]) * (at - i);
+static double interpolate_row(const double row[STEPS], int steps, double value) {
+    double share;
+    const int i = find_entry(steps, value, &share);
+    return row[i] + (row[i + 1] - row[i]) * share;
 }
 
 // --- lobes ---------------------------------------------------------------------------------------
 
 // A surface or its coat at one point.
 typedef struct Lobe {
+    const Tables *tables;
     double normal[3];
     double to_eye[3];
     double roughness;
@@ -133,8 +158,9 @@ static double facing_of(const Lobe *lobe) {
 }
 
 static void read_lobe(Lobe *lobe) {
-    lobe->a = interpolate(tables.a, lobe->roughness, facing_of(lobe));
-    lobe->b = interpolate(tables.b, lobe->roughness, facing_of(lobe));
+    const Tables *from = lobe->tables;
+    lobe->a = interpolate(from->a, from->steps, lobe->roughness, facing_of(lobe));
+    lobe->b = interpolate(from->b, from->steps, lobe->roughness, facing_of(lobe));
 }
 
 // The radiance that a lobe sees. environment: NULL for the surroundings of the lighting.
@@ -207,6 +233,10 @@ typedef struct Surface {
     double sunlit;       // the part of the light with shadows that arrives
     double transmission; // share of what would be diffuse light that comes from behind
 } Surface;
+
+static const Tables *tables_of(const DipRefTriangle *triangle) {
+    return triangle->few_entries ? &few_tables : &tables;
+}
 
 static const DipLightingDef *lighting_of(const DipRefTriangle *triangle) {
     static const DipLightDef sun = {.kind = DIP_LIGHT_DIRECTIONAL,
@@ -315,7 +345,8 @@ static void add_light(const Surface *surface, const Lobe *lobe, int index, doubl
 
 static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3]) {
     const double rest = 1.0 - surface->metallic;
-    const double grazing = interpolate_row(tables.grazing, facing_of(lobe));
+    const double grazing =
+        interpolate_row(lobe->tables->grazing, lobe->tables->steps, facing_of(lobe));
     const double f90 = rest * surface->f90 + surface->metallic;
     const double kept =
         1.0 - (surface->f0_greatest + (surface->f90 - surface->f0_greatest) * grazing);
@@ -345,7 +376,7 @@ static void light_surface(const Surface *surface, const Lobe *lobe, double rgb[3
 static void add_coat(const Surface *surface, const double normal[3], const double to_eye[3],
                      double rgb[3]) {
     const DipPbrDef *pbr = surface->triangle->pbr;
-    Lobe lobe = {.roughness = pbr->coat_roughness};
+    Lobe lobe = {.tables = tables_of(surface->triangle), .roughness = pbr->coat_roughness};
     for (int i = 0; i < 3; i++) {
         lobe.normal[i] = normal[i];
         lobe.to_eye[i] = to_eye[i];
@@ -414,7 +445,7 @@ static void begin_surface(const DipRefTriangle *triangle, const DipRefFilter *fi
     const DipPbrDef *pbr = triangle->pbr;
     *surface = (Surface){.triangle = triangle, .lighting = lighting_of(triangle)};
     surface->roughness = read_maps(filter, varyings, surface);
-    *lobe = (Lobe){.roughness = surface->roughness};
+    *lobe = (Lobe){.tables = tables_of(triangle), .roughness = surface->roughness};
     const double length = find_normals(triangle, varyings, texel, mesh, lobe->normal);
     double ray[3];
     dip_reference_ray(varyings, ray);

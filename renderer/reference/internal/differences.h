@@ -14,6 +14,8 @@
 // - Texels, also those of compressed textures, are square roots of linear light with 11 bits for
 //   red and green and 10 bits for blue. Alpha has 8 bits in every level.
 // - The mirrored picture has 8-bit sRGB codes.
+// - The tables of metallic-roughness surfaces have 32 entries along each axis instead of 64, and so
+//   end at a less grazing angle.
 // - The guard band lies DIP_REF_FAST_GUARD_PX from the picture's top left corner.
 // Fails with MEMORY.
 bool dip_reference_share_differences(DipReference *reference, DipError *err);

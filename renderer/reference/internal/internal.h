@@ -97,6 +97,7 @@ typedef struct DipRefTriangle {
     double repeat[2]; // u0 and v0 where they repeat: the multiple of 64 nearest to the eye's corner
     DipRefLit lit;
     const DipPbrDef *pbr; // NULL unless the surface is drawn by its metallic-roughness description
+    bool few_entries;     // its tables have as few entries as the fast renderer's (differences.h)
     const DipRefEnvironment *environment; // NULL: the surroundings of the lighting
     const DipRefTexture *metal_rough;     // maps of such a surface, or NULL
     const DipRefTexture *occlusion;
@@ -281,6 +282,8 @@ void dip_reference_read_data(const DipRefTexture *map, const DipRefFilter *filte
 // pbr.c: computes the tables that all references share, unless they are there. It must come before
 // metallic-roughness surfaces are drawn. Several threads may call it.
 void dip_reference_pbr_prepare(void);
+// The same for the tables that references read that share the fast renderer's differences.
+void dip_reference_pbr_prepare_few(void);
 
 // environment.c: makes what surfaces see of an environment, which is borrowed. Returns NULL if
 // memory runs out. *environment may be NULL and becomes NULL.

@@ -57,39 +57,15 @@ static bool has_sky(const SearchScene *made) {
     return false;
 }
 
-static bool has_gloss(const SearchScene *made) {
-    for (int i = 0; i < made->scene.def.material_count; i++) {
-        if (made->scene.materials[i].pbr) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Returns the greatest light of the surroundings in any direction and channel.
-static double surroundings_of(const DipLightingDef *lighting) {
-    double most = 0.0;
-    for (int c = 0; c < 3; c++) {
-        most = fmax(most, (double)lighting->ambient_lin[c] + 1.5 * (double)lighting->sky_lin[c]);
-    }
-    return most;
-}
-
 // Returns the greatest difference that rounding of texels, weights, light and 8 bits explains. The
 // narrow blend multiplies errors of the level of detail by 4. The clouds of a sky have steep edges,
-// which rounded texels displace. The fast renderer reads the share of light that glossy surfaces
-// reflect from a table of 32 steps instead of 64, so that at the last grazing angle, where its
-// table ends earlier, the shares differ by up to 5 / 128 of the light of the surroundings. This
-// light is about 1/2 unless the scene has lights of its own.
+// which rounded texels displace.
 static double tolerance_of(const SearchScene *made) {
     const bool narrow = made->quality.step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED;
     if (narrow && made->quality.step[DIP_SETTING_MIPDEBUG]) {
         return 0.021;
     }
-    if (has_gloss(made) && made->scene.def.lighting) {
-        return fmax(0.02, 5.0 / 128.0 * surroundings_of(made->scene.def.lighting));
-    }
-    return has_gloss(made) || has_sky(made) ? 0.02 : 0.012;
+    return has_sky(made) ? 0.02 : 0.012;
 }
 
 typedef struct Unexplained {
