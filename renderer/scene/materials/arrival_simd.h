@@ -5,9 +5,8 @@
 
 #include "renderer/scene/materials/surface_simd.h"
 
-// Squared lengths are at least LEAST_LENGTH2, and the light that arrives at a point is at most
-// GREATEST_LIGHT, so that no result is infinite or NaN.
-#define LEAST_LENGTH2  1e-36f
+// The light that arrives at a point is at most GREATEST_LIGHT, so that no result is infinite or
+// NaN.
 #define GREATEST_LIGHT 1e18f
 
 VEC_INLINE Vf3 vf3_splat(const float v[3]) {
@@ -19,7 +18,7 @@ VEC_INLINE Vf3 vf3_sum(Vf3 a, Vf3 b) {
 }
 
 VEC_INLINE Vf3 vf3_unit(Vf3 v) {
-    return vf3_scale(v, vf_splat(1.0f) / vf_sqrt(vf_max(vf3_dot(v, v), vf_splat(LEAST_LENGTH2))));
+    return vf3_scale(v, inverse_length(vf3_dot(v, v)));
 }
 
 // The direction to a light, and the part of its light that arrives.

@@ -36,9 +36,13 @@ VEC_INLINE Vf3 vf3_scale(Vf3 a, Vf s) {
     return (Vf3){a.x * s, a.y * s, a.z * s};
 }
 
+// Squared lengths are at least this, so that no vector of length 0 gives a NaN. It is small enough
+// to make unit vectors of interpolated normals that nearly cancel out.
+#define LEAST_LENGTH2 1e-36f
+
 // Returns 1 / sqrt(length2), or a finite value if length2 is 0.
 VEC_INLINE Vf inverse_length(Vf length2) {
-    return vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(1e-12f)));
+    return vf_splat(1.0f) / vf_sqrt(vf_max(length2, vf_splat(LEAST_LENGTH2)));
 }
 
 // Returns a power of two s for which 1 <= s * value < 2, for values from 2^-126 to 2^127. Returns
