@@ -102,6 +102,7 @@ bool stability_draw_reference(StabilityRun *run, const StabilityShot *shot,
     if (drawn && shot->share_differences) {
         drawn = dip_reference_share_differences(reference, &err);
         dip_reference_shift_readings(reference, shot->shift);
+        dip_reference_interpolate_in_floats(reference, shot->in_floats);
     }
     if (drawn) {
         dip_reference_set_time(reference, shot->time_ns);

@@ -21,9 +21,11 @@ typedef struct StabilityShot {
     int frames_before;
     bool force_all; // run all effects, needed or not (DipRendererDef.force_all_effects)
     // Whether the reference shares documented differences of the fast renderer
-    // (reference/internal/differences.h), and what it then adds to all colours that it reads.
+    // (reference/internal/differences.h), what it then adds to all colours that it reads, and
+    // whether it interpolates in floats.
     bool share_differences;
     double shift[3];
+    bool in_floats;
 } StabilityShot;
 
 // A picture in linear light, width * height * 3 values, top row first. Its owner frees rgb_lin.

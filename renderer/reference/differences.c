@@ -78,3 +78,7 @@ void dip_reference_shift_readings(DipReference *reference, const double shift[3]
         memcpy(reference->textures[t].shift, shift, sizeof reference->textures[t].shift);
     }
 }
+
+void dip_reference_interpolate_in_floats(DipReference *reference, bool in_floats) {
+    reference->in_floats = in_floats;
+}

@@ -422,6 +422,7 @@ static DipRefTriangle describe_mesh(const DipReference *reference, const DipMesh
     }
     like.clipped =
         material->surface == DIP_SURFACE_CLIPPED && (like.colour || has_alphas(material, mesh));
+    like.in_floats = reference->in_floats;
     like.water = material->surface == DIP_SURFACE_WATER;
     like.blended =
         material->surface == DIP_SURFACE_BLENDED || (like.water && material->transmission > 0.0f);

@@ -1,4 +1,5 @@
 // Shades a triangle at a position: interpolation, derivatives, textures, light.
+#include "renderer/reference/internal/differences.h"
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -45,6 +46,9 @@ void dip_reference_interpolate(const DipRefPosition *place, int first, int count
             out->ddy[k] =
                 (weights_dy[0] * a + weights_dy[1] * b + weights_dy[2] * c - value * q_dy) / q;
         }
+    }
+    if (place->triangle->in_floats) {
+        dip_reference_interpolate_floats(place, first, count, derive, out);
     }
 }
 

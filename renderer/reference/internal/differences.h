@@ -4,6 +4,7 @@
 #ifndef DIP_RENDERER_REFERENCE_INTERNAL_DIFFERENCES_H
 #define DIP_RENDERER_REFERENCE_INTERNAL_DIFFERENCES_H
 
+#include "renderer/reference/internal/internal.h"
 #include "renderer/reference/internal/texture.h"
 #include "renderer/reference/reference.h"
 
@@ -26,6 +27,17 @@ bool dip_reference_share_differences(DipReference *reference, DipError *err);
 // weights, and divides by slightly less than 65536 to make up for half of it.
 #define DIP_REF_MOST_SHIFT (10.0 / 65536.0)
 void dip_reference_shift_readings(DipReference *reference, const double shift[3]);
+
+// Lets a reference interpolate texture coordinates, alphas, normals and colours of vertices from
+// planes whose numbers are floats, in floats. On triangles that are seen edge-on, 1/w may change by
+// thousands per pixel. Floats then lose what little changes along the triangle, and coordinates
+// that are constant get derivatives of texels per pixel.
+void dip_reference_interpolate_in_floats(DipReference *reference, bool in_floats);
+
+// Interpolates `count` varyings from `first` on in floats, except the position. *out has everything
+// else.
+void dip_reference_interpolate_floats(const DipRefPosition *place, int first, int count,
+                                      bool derive, DipRefVaryings *out);
 
 // Rounds the texels of a texture, as above. Fails with MEMORY.
 bool dip_reference_round_texture(DipRefTexture *texture, DipError *err);

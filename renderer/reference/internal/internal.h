@@ -35,6 +35,7 @@ struct DipReference {
     DipRefShadows *shadows; // owned; NULL if the scene can have no shadows
     bool lacks_shadows;     // no memory was left for the shadows of this time
     bool differs;           // shares differences of the fast renderer (differences.h)
+    bool in_floats;         // interpolates as the fast renderer does (differences.h)
 };
 
 // The varyings: values that a vertex carries besides its position. They are interpolated with
@@ -105,6 +106,7 @@ typedef struct DipRefTriangle {
     const DipSkyDef *sky; // the clouds of a sky surface; NULL for other surfaces
     int64_t time_ns;      // time of the clouds
     uint64_t patch; // number of a patch, which is shaded as one surface; unique among all objects
+    bool in_floats; // its varyings are interpolated as the fast renderer does (differences.h)
     bool mirrored;  // true if the object's transform mirrors, which reverses the winding
     bool clipped;   // true if the alpha of `colour` or of the vertices clips the surface
     bool blended;   // true if the surface is drawn over what lies behind it

@@ -182,5 +182,6 @@ StabilityShot search_scene_shot(const SearchScene *made) {
         .frame_index = made->frame_index,
         .share_differences = true,
         .shift = {made->shift[0], made->shift[1], made->shift[2]},
+        .in_floats = made->in_floats,
     };
 }

@@ -19,6 +19,7 @@ typedef struct SearchScene {
     int64_t time_ns;
     uint64_t frame_index;
     double shift[3]; // what the reference adds to the colours that it reads from textures
+    bool in_floats;  // the reference interpolates in floats, as the fast renderer does
     const char *shape_names[DIP_TEST_SCENE_PARTS]; // kinds of the meshes
 } SearchScene;
 

@@ -46,6 +46,7 @@ void search_restore_original(SearchScene *made, const SearchOriginal *original) 
     }
     made->scene.pose = original->pose;
     memset(made->shift, 0, sizeof made->shift);
+    made->in_floats = false;
 }
 
 void search_free_original(SearchOriginal *original) {
@@ -106,9 +107,71 @@ static double distance_from_origin(const SearchScene *made, const DipObjectDef *
     return keeps_origin(m) ? 4.0 * eye : fmin(eye, reach);
 }
 
+// Returns the vertex of an object that is nearest to the eye.
+static uint32_t nearest_vertex(const SearchScene *made, const DipObjectDef *object) {
+    uint32_t nearest = 0;
+    double least = INFINITY;
+    for (uint32_t v = 0; v < made->scene.meshes[object->mesh].vertex_count; v++) {
+        double offset[3];
+        search_vertex_from_eye(made, object, v, offset);
+        const double distance = fabs(offset[0]) + fabs(offset[1]) + fabs(offset[2]);
+        nearest = distance < least ? v : nearest;
+        least = fmin(distance, least);
+    }
+    return nearest;
+}
+
+// Makes a point of a mesh its origin. Returns false, and changes nothing, if floats cannot hold the
+// new positions or the new transforms of the mesh's objects.
+static bool move_origin(SearchScene *made, int mesh, const float to[3]) {
+    float *positions = (float *)(uintptr_t)made->scene.meshes[mesh].positions;
+    const uint32_t count = 3 * made->scene.meshes[mesh].vertex_count;
+    const double origin[3] = {(double)to[0], (double)to[1], (double)to[2]};
+    bool exact = true;
+    for (uint32_t i = 0; i < count; i++) {
+        const float moved = (float)((double)positions[i] - origin[i % 3]);
+        exact = exact && (double)moved + origin[i % 3] == (double)positions[i];
+    }
+    for (int pass = 0; pass < 2 && exact; pass++) {
+        for (int k = 0; k < 3 * made->scene.def.object_count; k++) {
+            float *row = made->scene.objects[k / 3].transform + 4 * (k % 3);
+            const double place = (double)row[0] * origin[0] + (double)row[1] * origin[1] +
+                                 (double)row[2] * origin[2] + (double)row[3];
+            if (made->scene.objects[k / 3].mesh != mesh) {
+                continue;
+            }
+            exact = exact && (double)(float)place == place;
+            row[3] = pass ? (float)place : row[3];
+        }
+    }
+    for (uint32_t i = 0; i < count && exact; i++) {
+        positions[i] = (float)((double)positions[i] - origin[i % 3]);
+    }
+    return exact;
+}
+
+// Moves the origin of an object's mesh to its vertex nearest to the eye, along the axes along which
+// floats are too coarse to move that vertex by `most` metres. Returns true if it did.
+static bool make_movable(SearchScene *made, const DipObjectDef *object, double most) {
+    const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
+    const uint32_t nearest = nearest_vertex(made, object);
+    float to[3] = {0.0f, 0.0f, 0.0f};
+    bool coarse = false;
+    for (int i = 0; i < 3; i++) {
+        const float at = mesh->positions[3 * nearest + (uint32_t)i];
+        const double step = 0x1p-23 * fabs((double)at) * column_length(object->transform, i);
+        to[i] = step > 0.25 * most ? at : 0.0f;
+        coarse = coarse || step > 0.25 * most;
+    }
+    return coarse && move_origin(made, object->mesh, to);
+}
+
 // Moves the vertices of an object's mesh by as much as docs/picture.md allows floats to move them:
 // in proportion to the distance from the eye, and to the eye's distance from the object's origin.
-static void shake_mesh(SearchScene *made, const DipObjectDef *object, uint64_t seed) {
+// share: the part of these moves that is wanted. apart: where floats are too coarse for that, the
+// mesh gets another origin. Returns true if it did.
+static bool shake_mesh(SearchScene *made, const DipObjectDef *object, double share, bool apart,
+                       uint64_t seed) {
     const DipMeshDef *mesh = &made->scene.meshes[object->mesh];
     const float *m = object->transform;
     double scales[3];
@@ -116,13 +179,14 @@ static void shake_mesh(SearchScene *made, const DipObjectDef *object, uint64_t s
         scales[i] = column_length(m, i);
     }
     const double from_origin = distance_from_origin(made, object);
+    const bool moved = apart && make_movable(made, object, 0x1p-21 * from_origin);
     float *positions = (float *)(uintptr_t)mesh->positions;
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
         double offset[3];
         search_vertex_from_eye(made, object, v, offset);
         const double distance =
             sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-        const double most = 0x1p-22 * (distance + 2.0 * from_origin);
+        const double most = share * 0x1p-22 * (distance + 2.0 * from_origin);
         Random random = random_of_vertex(positions + 3 * (size_t)v, seed);
         for (int i = 0; i < 3; i++) {
             const double move = scales[i] > 0.0 ? most / scales[i] : 0.0;
@@ -130,6 +194,7 @@ static void shake_mesh(SearchScene *made, const DipObjectDef *object, uint64_t s
                 (float)((double)positions[3 * v + (uint32_t)i] + random_real(&random, -move, move));
         }
     }
+    return moved;
 }
 
 static bool is_sky(const SearchScene *made, const DipMeshDef *mesh) {
@@ -196,8 +261,12 @@ static void shift_camera(SearchScene *made, Random *random) {
 
 void search_shake(SearchScene *made, uint64_t seed) {
     Random random = {seed};
+    // Floats mostly move vertices by much less than they may, which leaves slivers thin.
+    Random shares = {~seed};
+    const double share = random_int(&shares, 0, 1) ? 1.0 : ldexp(1.0, -random_int(&shares, 1, 10));
     bool shaken[DIP_TEST_SCENE_PARTS] = {false};
     bool lifted[DIP_TEST_SCENE_PARTS] = {false};
+    bool moved[DIP_TEST_SCENE_PARTS] = {false}; // the origin of the mesh, where no object is lifted
     for (int i = 1; i < made->scene.def.object_count; i++) {
         lifted[i] = !has_same_vertices(made, i);
     }
@@ -205,11 +274,11 @@ void search_shake(SearchScene *made, uint64_t seed) {
         const DipObjectDef *object = &made->scene.objects[i];
         if (!shaken[object->mesh]) {
             shaken[object->mesh] = true;
-            shake_mesh(made, object, seed);
+            moved[object->mesh] = shake_mesh(made, object, share, seed & 1, seed);
         }
     }
     for (int i = 1; i < made->scene.def.object_count; i++) {
-        if (lifted[i] && random_int(&random, 0, 1)) {
+        if (lifted[i] && !moved[made->scene.objects[i].mesh] && random_int(&random, 0, 1)) {
             lift(made, i, &random);
         }
     }
@@ -222,6 +291,7 @@ void search_shake(SearchScene *made, uint64_t seed) {
     for (int c = 0; c < 3; c++) {
         made->shift[c] = random_real(&random, -DIP_REF_MOST_SHIFT, DIP_REF_MOST_SHIFT);
     }
+    made->in_floats = random_int(&random, 0, 1);
 }
 
 bool search_is_beyond_precision(const SearchScene *made) {

@@ -20,7 +20,8 @@ void search_free_original(SearchOriginal *original);
 
 // Moves the vertices, the camera and the alpha cutoffs a little, moves objects that may be coplanar
 // a little towards the eye or away from it, and shifts what is read from textures by as much as
-// the fast renderer's filter rounds. Each seed gives other changes.
+// the fast renderer's filter rounds. Every other scene is interpolated in floats. Each seed gives
+// other changes.
 void search_shake(SearchScene *made, uint64_t seed);
 
 // Returns true if a vertex is so close to the eye that the error allowed for its position is not
