@@ -29,6 +29,7 @@ static const BadFile bad_files[] = {
     {"bad_version.gltf", DIP_ERROR_FORMAT, "not glTF of version 2"},
     {"bad_index.gltf", DIP_ERROR_RANGE, "there are 4 vertices"},
     {"bad_index.obj", DIP_ERROR_FORMAT, "out of range"},
+    {"bad_index.ply", DIP_ERROR_RANGE, "face 0 uses vertex 3 of 3"},
     {"bad_index_type.gltf", DIP_ERROR_RANGE, ""},
     {"bad_nan.gltf", DIP_ERROR_RANGE, "value 1 is not finite"},
     {"bad_nan.obj", DIP_ERROR_RANGE, "vertex 1 is not finite"},

@@ -1,6 +1,7 @@
 // Tests the reader of glTF scenes: one small model for each feature (make_gltf.py). The expected
 // numbers follow by hand from those of the models and from the glTF 2.0 specification. assimp is a
 // second opinion about plain files.
+#include "assets/gltf/document.h"
 #include "assets/importer.h"
 #include "assets/model.h"
 #include "tests/assets/fixture.h"
@@ -661,6 +662,26 @@ static void cut_files_say_that_they_end_too_early(void **state) {
     }
 }
 
+// In glTF, the least signed integer stands for -1, like the one after it.
+static void the_least_integers_are_minus_one(void **state) {
+    (void)state;
+    static const uint8_t bytes[] = {0x80, 0x81, 0x7f, 0x00, 0x80, 0x01, 0x80, 0xff, 0x7f};
+    DipGltfAccessor accessor = {.bytes = bytes,
+                                .stride_bytes = 1,
+                                .count = 3,
+                                .component = DIP_GLTF_BYTE,
+                                .width = 1,
+                                .normalized = true};
+    for (int shorts = 0; shorts < 2; shorts++) {
+        assert_true(dip_gltf_number(&accessor, 0, 0) == -1.0);
+        assert_true(dip_gltf_number(&accessor, 1, 0) == -1.0);
+        assert_true(dip_gltf_number(&accessor, 2, 0) == 1.0);
+        accessor.bytes = bytes + 3;
+        accessor.stride_bytes = 2;
+        accessor.component = DIP_GLTF_SHORT;
+    }
+}
+
 int main(int argc, char **argv) {
     if (argc > 2 && strcmp(argv[1], importer_word) == 0) {
         return dip_importer_run(argc - 2, argv + 2);
@@ -682,6 +703,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(features_that_are_not_drawn_are_named_once),
         cmocka_unit_test(packed_files_look_like_the_plain_one),
         cmocka_unit_test(plain_files_agree_with_assimp),
+        cmocka_unit_test(the_least_integers_are_minus_one),
         cmocka_unit_test(mutated_files_do_no_harm),
         cmocka_unit_test(mutated_draco_files_do_no_harm_in_the_importer),
         cmocka_unit_test(cut_files_say_that_they_end_too_early),

@@ -1,5 +1,5 @@
 // Tests loading models: compares the scene descriptions with the content of the model files.
-#include "assets/model.h"
+#include "assets/model_parts.h"
 #include "renderer/scene/renderer.h"
 #include "tests/assets/fixture.h"
 
@@ -613,6 +613,18 @@ static void files_load_even_if_assimp_cannot_process_them(void **state) {
     }
 }
 
+// Models of no size or of an enormous size get a near plane that a scene accepts.
+static void near_distances_are_those_that_scenes_accept(void **state) {
+    (void)state;
+    DipModelBounds bounds = {.diagonal = 0.0};
+    assert_true(dip_model_near_distance(&bounds) == DIP_MIN_NEAR_M);
+    bounds.diagonal = 1e30;
+    assert_true(dip_model_near_distance(&bounds) == DIP_MAX_NEAR_M);
+    bounds.diagonal = 1e3;
+    const float near_m = dip_model_near_distance(&bounds);
+    assert_true(near_m > DIP_MIN_NEAR_M && near_m < 1e3f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_courtyard_is_loaded_completely),
@@ -634,6 +646,7 @@ int main(void) {
         cmocka_unit_test(stl_and_x_files_load_together),
         cmocka_unit_test(files_load_even_if_assimp_cannot_process_them),
         cmocka_unit_test(missing_normals_are_computed),
+        cmocka_unit_test(near_distances_are_those_that_scenes_accept),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

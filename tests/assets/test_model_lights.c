@@ -265,6 +265,17 @@ static void bad_lights_are_left_out_with_a_warning(void **state) {
     }
 }
 
+// glTF limits the angles to a right angle.
+static void a_cone_is_at_most_a_half_space(void **state) {
+    (void)state;
+    static const char light[] =
+        "{\"type\":\"spot\",\"spot\":{\"innerConeAngle\":2,\"outerConeAngle\":3}}";
+    DipModel *model = load(write_gltf("wide.gltf", light, one_light), NULL);
+    assert_true(lighting_of(model)->lights[0].inner_deg == 90.0f);
+    assert_true(lighting_of(model)->lights[0].outer_deg == 90.0f);
+    dip_model_destroy(&model);
+}
+
 static void a_flattened_direction_is_left_out_with_a_warning(void **state) {
     (void)state;
     static const char nodes[] =
@@ -499,6 +510,7 @@ int main(void) {
         cmocka_unit_test(a_light_far_away_can_be_as_strong_as_any),
         cmocka_unit_test(a_scale_of_0_ignores_the_lights_of_files),
         cmocka_unit_test(bad_lights_are_left_out_with_a_warning),
+        cmocka_unit_test(a_cone_is_at_most_a_half_space),
         cmocka_unit_test(a_flattened_direction_is_left_out_with_a_warning),
         cmocka_unit_test(a_black_light_does_not_count),
         cmocka_unit_test(lights_beyond_64_are_counted_in_a_warning),

@@ -578,6 +578,14 @@ static void bad_orbits_and_keys_are_refused(void **context) {
     assert_string_equal(err.key, "keys");
     assert_int_equal(err.code, DIP_ERROR_RANGE);
     assert_null(path);
+    static const char *const names[7] = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+    for (int i = 0; i < 7; i++) {
+        DipCamKey undefined = key;
+        *(i < 3 ? &undefined.position_world[i] : &undefined.orientation[i - 3]) = NAN;
+        assert_false(dip_campath_create(&undefined, 1, SECOND, &path, &err));
+        assert_string_equal(err.key, names[i]);
+        assert_int_equal(err.code, DIP_ERROR_RANGE);
+    }
 }
 
 // The ends of each range are accepted; the next numbers beyond them are not.

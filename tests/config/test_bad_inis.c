@@ -65,6 +65,7 @@ static const BadIni bad_inis[] = {
     {"a resolution of three numbers", "RES", "RES: 640x480x32\n", DIP_ERROR_TYPE, 27, "RES", "32'"},
     {"a resolution with spaces", "RES", "RES: 640 x 480\n", DIP_ERROR_TYPE, 27, "RES", "640 x 480"},
     {"a resolution with a fraction", "RES", "RES: 640.5x480\n", DIP_ERROR_TYPE, 27, "RES", "640.5"},
+    {"a resolution with an exponent", "RES", "RES: 6e2x480\n", DIP_ERROR_TYPE, 27, "RES", "6e2"},
     {"a resolution of words", "REFLECTION_RES", "REFLECTION_RES: big\n", DIP_ERROR_TYPE, 27,
      "REFLECTION_RES", "'big'"},
     {"a resolution cut short", "RES", "RES: 640x\n", DIP_ERROR_TYPE, 27, "RES", "'640x'"},

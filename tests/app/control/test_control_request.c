@@ -180,6 +180,11 @@ static void lengths_and_depths_are_limited(void **state) {
     assert_false(reads(line));
     assert_non_null(strstr(err.message, "...' is no request"));
     free(line);
+    // The text is cut after 40 bytes, but not within a letter.
+    line = repeated("{\"request\":\"", 'r', 39, "\xc3\xa4\"}");
+    assert_false(reads(line));
+    assert_non_null(strstr(err.message, "rr...' is no request"));
+    free(line);
 }
 
 // Bytes after a zero byte are part of the line.

@@ -144,11 +144,25 @@ static void a_small_patch_is_found(void **state) {
     assert_true(tail.worst_width == 32.0 && tail.worst_height == 32.0);
 }
 
+// The greatest FLIP that there is counts like any other.
+static void pixels_without_any_likeness_count(void **state) {
+    (void)state;
+    for (int f = 0; f < FRAMES; f++) {
+        for (int i = 0; i < 40 * 40; i++) {
+            maps[f][i] = 1.0f;
+        }
+    }
+    const DipFlipTail tail = measure(40, 40);
+    expect_near(tail.p50, 1.0, 0x1p-16);
+    expect_near(tail.p99, 1.0, 0x1p-16);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(percentiles_are_those_of_sorted_values),
         cmocka_unit_test(the_worst_block_is_that_of_trying_all),
         cmocka_unit_test(a_small_patch_is_found),
+        cmocka_unit_test(pixels_without_any_likeness_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

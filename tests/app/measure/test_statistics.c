@@ -1,4 +1,4 @@
-// Tests of percentiles and medians of values whose statistics are known.
+// Tests of percentiles and medians of values whose statistics are known, and of intervals.
 #include "app/measure/stats/estimate.h"
 
 #include <setjmp.h>
@@ -47,10 +47,20 @@ static void the_median_needs_no_sorted_values(void **state) {
     }
 }
 
+// The error of the logarithm may be so great that one end of the interval is infinite.
+static void an_interval_has_both_ends_or_none(void **state) {
+    (void)state;
+    const DipEstimate wide = dip_estimate_make(2.0, 100.0, 5.0);
+    assert_true(wide.low > 0.0 && wide.low < 2.0 && wide.high > 2.0 && isfinite(wide.high));
+    const DipEstimate endless = dip_estimate_make(2.0, 1000.0, 5.0);
+    assert_true(endless.value == 2.0 && isnan(endless.low) && isnan(endless.high));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_median_needs_no_sorted_values),
         cmocka_unit_test(percentiles_lie_between_neighbours),
+        cmocka_unit_test(an_interval_has_both_ends_or_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
