@@ -122,11 +122,13 @@ DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, in
 }
 
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
-                                      const DipCostElsewhere *there, int there_count) {
+                                      const DipCostElsewhere *there, int there_count,
+                                      bool same_place) {
     Equations equations;
     begin(&equations, report, rows, count);
-    add_elsewhere(&equations, there, there_count,
-                  there_weight * (equations.known + report->smaller_count) / there_count);
+    const double weight =
+        there_weight * (equations.known + report->smaller_count) / fmax(there_count, 1.0);
+    add_elsewhere(&equations, there, there_count, same_place ? 1.0 : weight);
     equations.known += there_count;
     return solve(&equations);
 }

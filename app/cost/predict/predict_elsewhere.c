@@ -144,12 +144,20 @@ static bool time_there(DipCostElsewherePrediction *p, DipCostContext *here, DipC
 
 // --- predicting and judging ----------------------------------------------------------------------
 
+// Whether "there" has the size, camera path, threads and instruction set of the report.
+static bool is_same_place(const DipCostReport *report, const DipCostReport *there) {
+    return report->width == there->width && report->height == there->height &&
+           report->threads == there->threads && strcmp(report->isa, there->isa) == 0 &&
+           strcmp(report->paths[0], there->paths[0]) == 0;
+}
+
 // Fits prices to all rows of the report on all of its paths, to the combinations that the report
 // timed at half its width and height (report->smaller), and to `count` combinations that were timed
 // there.
 static DipCostModel fit(const DipCostElsewherePrediction *p, const DipCostElsewhere *timed,
                         int count) {
-    return dip_cost_model_fit_there(&p->report, NULL, p->report.row_count, timed, count);
+    return dip_cost_model_fit_there(&p->report, NULL, p->report.row_count, timed, count,
+                                    is_same_place(&p->report, &p->there));
 }
 
 static double predict(const DipCostElsewherePrediction *p, const DipCostModel *model, int index) {

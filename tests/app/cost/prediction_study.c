@@ -214,8 +214,8 @@ static bool study_there(const Trained *trained, const char *file, DipError *err)
         return false;
     }
     const DipCostModel alone = dip_cost_model_fit(trained->report, trained->rows, trained->count);
-    const DipCostModel fitted = dip_cost_model_fit_there(trained->report, trained->rows,
-                                                         trained->count, there.rows, TIMED_THERE);
+    const DipCostModel fitted = dip_cost_model_fit_there(
+        trained->report, trained->rows, trained->count, there.rows, TIMED_THERE, false);
     const DipCostMisses all = misses_there(&there, &alone, 0);
     const DipCostMisses others = misses_there(&there, &fitted, TIMED_THERE);
     printf("%s:\n", file);

@@ -414,6 +414,7 @@ static DipCostElsewherePrediction *predict_there(const DipCostReport *report, in
     assert_non_null(p);
     p->report = *report;
     p->there.predicted = report->predicted; // Its counters are those of the report.
+    p->there.threads = report->threads + 1;
     p->count = COMBINATIONS;
     p->timed_count = timed;
     p->checked_count = checked;
@@ -503,6 +504,39 @@ static void uncertain_times_elsewhere_do_not_mislead(void **state) {
     dip_cost_report_free(&report);
 }
 
+// Where nothing differs from the report, six uncertain times are only six more rows.
+static void times_at_the_same_place_count_like_rows(void **state) {
+    (void)state;
+    DipCostReport report;
+    make_report(&report, courtyard_flip, 0.01, 1);
+    DipCostElsewherePrediction *p = predict_there(&report, 6, 0, 1.0, 0.08);
+    double p90[2];
+    for (int same_place = 0; same_place < 2; same_place++) {
+        double misses[COMBINATIONS];
+        const DipCostModel model =
+            dip_cost_model_fit_there(&report, NULL, report.row_count, p->timed, 6, same_place);
+        for (int i = 0; i < COMBINATIONS; i++) {
+            DipCostElsewhere there;
+            make_times_there(&report.rows[i], 1.0, &there);
+            misses[i] =
+                fabs(dip_cost_model_value(&model, there.counters, &there.quality) / there.ms.value -
+                     1.0);
+        }
+        p90[same_place] = dip_cost_misses_of(misses, COMBINATIONS).p90;
+    }
+    if (!(p90[1] < 0.03 && p90[0] > 0.04)) {
+        fail_msg("p90 %.4f like rows, %.4f elsewhere", p90[1], p90[0]);
+    }
+    p->there.threads = report.threads;
+    dip_cost_predict_and_judge_there(p);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        assert_true(fabs(p->list[i].ms / p->list[i].as_is_ms - 1.0) < 0.03);
+    }
+    free(p->list);
+    free(p);
+    dip_cost_report_free(&report);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(times_follow_from_work),
@@ -515,6 +549,7 @@ int main(void) {
         cmocka_unit_test(a_smaller_size_tells_the_prices_of_others),
         cmocka_unit_test(six_times_elsewhere_tell_all_others),
         cmocka_unit_test(uncertain_times_elsewhere_do_not_mislead),
+        cmocka_unit_test(times_at_the_same_place_count_like_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
