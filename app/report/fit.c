@@ -6,10 +6,10 @@
 
 #include <math.h>
 
-// All combinations `there` (dip_cost_model_fit_there) together count this many times as much as all
-// rows and smaller combinations of the report. Any value from 3 to 100 does about as well. This was
-// tried in the scene "courtyard", where 6 timed combinations predicted the others at two sizes and
-// on three paths.
+// At another place, all combinations `there` (dip_cost_model_fit_there) together count this many
+// times as much as all rows and smaller combinations of the report. Any value from 3 to 100 does
+// about as well. This was tried in the scene "courtyard", where 6 timed combinations predicted the
+// others at two sizes and on three paths.
 static const double there_weight = 30.0;
 
 // A measurement to which prices are fitted: a row, or a combination that was timed elsewhere.

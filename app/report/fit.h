@@ -50,8 +50,9 @@ DipCostModel dip_cost_model_fit(const DipCostReport *report, const int *rows, in
 // Fits prices that are meant for another size, another camera path or another number of threads
 // than the report's. `there` holds a few combinations that were timed under these other conditions.
 // Together they count 30 times as much as all rows of the report and its combinations at half the
-// size, which decide only what `there` leaves open. If same_place is true, size, camera path and
-// threads are those of the report, and each of `there` counts like a row: it is no better than one.
+// size, which decide only what `there` leaves open. If same_place is true, size, camera path,
+// threads and instruction set are those of the report, and each of `there` counts like a row: it is
+// no better than one.
 DipCostModel dip_cost_model_fit_there(const DipCostReport *report, const int *rows, int count,
                                       const DipCostElsewhere *there, int there_count,
                                       bool same_place);

@@ -527,8 +527,12 @@ static void times_at_the_same_place_count_like_rows(void **state) {
     if (!(p90[1] < 0.03 && p90[0] > 0.04)) {
         fail_msg("p90 %.4f like rows, %.4f elsewhere", p90[1], p90[0]);
     }
+    const double left_out = p->timed_left_out.median;
     p->there.threads = report.threads;
     dip_cost_predict_and_judge_there(p);
+    if (!(p->timed_left_out.median < 0.09 && left_out > 0.1)) {
+        fail_msg("left out: %.4f here, %.4f elsewhere", p->timed_left_out.median, left_out);
+    }
     for (int i = 0; i < COMBINATIONS; i++) {
         assert_true(fabs(p->list[i].ms / p->list[i].as_is_ms - 1.0) < 0.03);
     }
