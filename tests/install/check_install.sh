@@ -1,8 +1,8 @@
 #!/bin/sh
 # Uses an installed copy from outside this tree. The installed program must draw. The installed
-# examples, the program in docs/pipeline.md and a program in C++ must build by the documented
-# commands, linked dynamically and statically, and every link of an installed page must lead to a
-# file.
+# examples, the programs in docs/pipeline.md and docs/post.md and a program in C++ must build by the
+# documented commands, linked dynamically and statically, and every link of an installed page must
+# lead to a file.
 #
 # Usage: check_install.sh SOURCE_DIR COPY_DIR COMPILER CXX_COMPILER
 set -eu
@@ -60,9 +60,12 @@ sed -i 's/COMPONENTS pipeline/COMPONENTS pipelines/' "$folder/cmake/CMakeLists.t
 ! cmake -S "$folder/cmake" -B "$folder/cmake/wrong" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$compiler" >"$folder/log" 2>&1 || fail "an unknown component is accepted"
 
-# The first block of C in the guide is a whole program.
-awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' \
-    "$prefix/share/doc/diptych/docs/pipeline.md" >"$folder/first.c"
+# first_program PAGE: the first block of C of an installed page, which is a whole program.
+first_program() {
+    awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' \
+        "$prefix/share/doc/diptych/docs/$1"
+}
+first_program pipeline.md >"$folder/first.c"
 first_draws() { # PROGRAM: it writes first.png.
     [ "$("$1")" = "37015 fragments shaded" ] || fail "the guide's first program, $1, draws something else"
     [ "$(od -A n -t x1 -N 24 first.png | tr -d ' \n')" = \
@@ -70,11 +73,24 @@ first_draws() { # PROGRAM: it writes first.png.
         fail "the guide's first program, $1, writes no PNG of 320x240 pixels"
     rm first.png
 }
+# The border of the white area of docs/post.md crosses 160 columns and has 31 steps to the right. What
+# the program makes of it must be what the installed `diptych compare` makes of it.
+first_program post.md >"$folder/smaa.c"
+smooths() { # PROGRAM: it writes jagged.png and smooth.png.
+    [ "$("$1")" = "191 pixels at an edge" ] || fail "the program of docs/post.md, $1, finds other edges"
+    for filter in none smaa; do
+        "$prefix/bin/diptych" compare jagged.png smooth.png --filter $filter --json >"$folder/$filter" ||
+            fail "the pictures of $1 cannot be compared"
+    done
+    grep -q '"different_pixels": 0,' "$folder/smaa" && ! grep -q '"different_pixels": 0,' "$folder/none" ||
+        fail "the program of docs/post.md, $1, does not apply SMAA"
+    rm jagged.png smooth.png
+}
 
-# The guide's program, and programs in C++ with a scene alone and with models, camera paths and metrics:
-# static, then shared. The measuring example: static.
+# The programs of both pages, and programs in C++ with a scene alone and with models, camera paths and
+# metrics: static, then shared. The measuring example: static.
 mkdir "$folder/model"
-cp "$folder/first.c" "$source/tests/install/scene.cpp" "$source/tests/install/model.cpp" \
+cp "$folder/first.c" "$folder/smaa.c" "$source/tests/install/scene.cpp" "$source/tests/install/model.cpp" \
     "$prefix/share/doc/diptych/app/measure/example/two_ways.c" "$folder/model"
 cat >"$folder/model/CMakeLists.txt" <<'TEXT'
 cmake_minimum_required(VERSION 3.25)
@@ -83,6 +99,8 @@ find_package(Diptych REQUIRED COMPONENTS assets campaths measure)
 foreach(kind "" "_shared")
     add_executable(first${kind} first.c)
     target_link_libraries(first${kind} PRIVATE Diptych::pipeline${kind} Diptych::files${kind})
+    add_executable(smaa${kind} smaa.c)
+    target_link_libraries(smaa${kind} PRIVATE Diptych::post${kind} Diptych::files${kind})
     add_executable(scene${kind} scene.cpp)
     target_compile_features(scene${kind} PRIVATE cxx_std_17)
     target_link_libraries(scene${kind} PRIVATE Diptych::scene${kind})
@@ -97,6 +115,7 @@ TEXT
 build_project "$folder/model" $ninja
 for kind in "" _shared; do
     (cd "$folder" && first_draws "$folder/model/build/first$kind")
+    (cd "$folder" && smooths "$folder/model/build/smaa$kind")
     "$folder/model/build/scene$kind" || fail "scene$kind fails"
     "$folder/model/build/model$kind" "$prefix/share/diptych" || fail "model$kind fails"
 done
@@ -143,7 +162,7 @@ TEXT
 
     # The guide's program must also build beside folders whose headers have the same names as those
     # of this tree. Shared, then static.
-    cp "$folder/first.c" .
+    cp "$folder/first.c" "$folder/smaa.c" .
     mkdir -p renderer/base renderer/pipeline
     echo '#error "This is the header of another program."' >renderer/base/error.h
     cp renderer/base/error.h renderer/pipeline/pipeline.h
@@ -154,6 +173,15 @@ TEXT
     first_draws ./first
     cc -static first.c $(pkg-config --static --cflags --libs diptych-pipeline diptych-files) -o first
     first_draws ./first
+
+    # The program that filters a picture.
+    cc -std=c11 $warnings -c smaa.c -o smaa.o $(pkg-config --cflags diptych-post)
+    unset PKG_CONFIG_PATH LD_LIBRARY_PATH
+    eval "$(documented post.md 'export PKG_CONFIG_PATH')"
+    eval "$(documented post.md 'cc smaa.c')" >/dev/null
+    smooths ./smaa
+    cc -static smaa.c $(pkg-config --static --cflags --libs diptych-post diptych-files) -o smaa
+    smooths ./smaa
 
     # The gallery's sources build against the installed headers and need only exported functions.
     gallery=$prefix/share/doc/diptych/app/gallery

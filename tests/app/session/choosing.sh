@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs docs/choosing.py with small pictures. Every row of FLIP in docs/choosing.md must be in its
-# table. A front without a set that has a history gives a panel's sets, too.
+# Runs all parts of docs/choosing.py with small pictures, and interrupts them once. The same command must
+# continue without measuring anything twice, and the tables must have the rows of docs/choosing.md.
 #
 # Usage: choosing.sh DIPTYCH SOURCE_FOLDER
 set -eu
@@ -8,16 +8,40 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python=/usr/bin/python3 # Debian's, as in ../program.sh
 [ -x "$python" ] || python=python3
-"$python" "$2/docs/choosing.py" errors "$1" "$folder/out" --size 48x36 --cache "$folder/cache" >"$folder/table"
-sed -n 's/^\(| `*[a-z][^|]*\) | \.[0-9]* | \.[0-9]* | \..*/\1/p' "$2/docs/choosing.md" | tr -d '`' >"$folder/rows"
-[ "$(wc -l <"$folder/rows")" -ge 16 ] || { echo "FAILED: the page has no table" >&2; exit 1; }
-while read -r row; do
-    tr -d '`' <"$folder/table" | grep -qF -- "$row |" || {
-        cat "$folder/table"
-        echo "FAILED: the table has no row '$row'" >&2
-        exit 1
-    }
-done <"$folder/rows"
+fail() {
+    cat "$folder/table" "$folder/messages"
+    echo "FAILED: $1" >&2
+    exit 1
+}
+
+# A program that notes each of its calls, and fails once when it is called for the ninth time.
+cat >"$folder/diptych" <<SCRIPT
+#!/bin/sh
+echo "\$*" >>"$folder/calls"
+[ "\$(wc -l <"$folder/calls")" -ne 9 ] || exit 7
+exec "$1" "\$@"
+SCRIPT
+chmod +x "$folder/diptych"
+# everything TABLE: prints all tables into this file.
+everything() {
+    "$python" -B "$2/docs/choosing.py" everything "$folder/diptych" "$folder/out" --size 40x30 \
+        --rounds 2 --starts 1 --samples 1 --cache "$folder/cache" >"$folder/$3" 2>"$folder/messages"
+}
+
+everything "$1" "$2" table && fail "a failure of the program is not noticed"
+grep -q 'about [1-9][0-9]* min .*: errors 5 min, study ' "$folder/messages" ||
+    fail "it does not say how long it will take"
+grep -q 'ended with exit code 7; the same command continues' "$folder/messages" ||
+    fail "it does not say what failed"
+everything "$1" "$2" table || fail "it does not continue"
+grep -q 'about .*errors is there' "$folder/messages" || fail "it does not say what is left"
+[ "$(sort "$folder/calls" | uniq -d | wc -l)" -eq 1 ] || fail "it measures something twice"
+everything "$1" "$2" again && cmp "$folder/table" "$folder/again" || fail "the tables are different now"
+grep -q 'about 0 min' "$folder/messages" || fail "something is left to do"
+"$python" -B "$2/tests/app/session/choosing_page.py" rows "$2/docs/choosing.md" "$folder/table" ||
+    fail "the page and the tables differ"
+
+# A front without a set that has a history gives a panel's sets, too.
 "$python" -B -c '
 import sys
 sys.path.insert(0, sys.argv[1])
