@@ -285,6 +285,15 @@ def candidates(out):
             if row["path"] == 0 and index != path["same_row"] and row["ms"] and "all" in row["figures"]]
 
 
+def simplest(sets):
+    """The sets, without those that change more settings and draw the same pictures. Their errors are
+    equal to the last bit."""
+    best = {}
+    for each in sorted(sets, key=lambda each: (len(each[2].split(",")), each[2] != "defaults", each[0])):
+        best.setdefault(each[1], each)
+    return list(best.values())
+
+
 def front_of(sets):
     """The sets, from the fastest on, that each have clearly less FLIP than all faster ones."""
     front = []
@@ -306,7 +315,8 @@ def panel_of(front):
 def show_fronts(outs):
     rows = []
     for scene in SCENES:
-        sets = [each for (of, _), out in outs.items() if of == scene for each in candidates(out)]
+        sets = simplest([each for (of, _), out in outs.items() if of == scene
+                         for each in candidates(out)])
         front = front_of(sets)
         panel = panel_of(front)
         base = next(each for each in sets if each[2] == "defaults")
