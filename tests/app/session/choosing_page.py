@@ -53,9 +53,10 @@ def faults_of(how, page, printed):
         if heads not in printed:
             yield f"no command prints the page's table {heads}"
         elif how == "values" and rows != printed[heads]:
-            yield f"other values: {sorted(set(rows) ^ set(printed[heads]))}"
+            yield f"other values in {heads}: {sorted(set(rows) ^ set(printed[heads])) or 'the order'}"
         elif keys_of(heads, rows) != keys_of(heads, printed[heads]):
-            yield f"other rows in {heads}: {keys_of(heads, rows)} and {keys_of(heads, printed[heads])}"
+            here, there = set(keys_of(heads, rows)), set(keys_of(heads, printed[heads]))
+            yield f"other rows in {heads}: {sorted(here ^ there) or 'the order'}"
 
 
 def quotes_of(text):
