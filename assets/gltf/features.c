@@ -16,10 +16,14 @@ typedef struct Extension {
 } Extension;
 
 static const Extension extensions[] = {
+    {"EXT_instance_features", NULL}, // This and the next names give data, not looks.
+    {"EXT_mesh_features", NULL},
+    {"EXT_structural_metadata", NULL},
     {"EXT_mesh_gpu_instancing", NULL},
     {"EXT_meshopt_compression", NULL},
     {"EXT_texture_webp", NULL},
-    {"KHR_animation_pointer", NULL},
+    {"KHR_animation_pointer", "is not played: what it moves, such as materials, lights and lenses, "
+                              "stays as it is at rest"},
     {"KHR_draco_mesh_compression", NULL},
     {"KHR_lights_punctual", NULL},
     {"KHR_materials_clearcoat", NULL},
@@ -32,11 +36,14 @@ static const Extension extensions[] = {
     {"KHR_materials_unlit", NULL},
     {"KHR_materials_variants", "is not drawn: the surfaces have the materials of the first look"},
     {"KHR_mesh_quantization", NULL},
+    {"KHR_node_hoverability", NULL}, // This and the next describe what a pointer can do.
+    {"KHR_node_selectability", NULL},
     {"KHR_node_visibility", NULL},
     {"KHR_texture_basisu", NULL}, // Each picture gives a message of its own.
     {"KHR_texture_transform", NULL},
     {"KHR_xmp", NULL}, // It describes the file, not the picture.
     {"KHR_xmp_json_ld", NULL},
+    {"MSFT_lod", NULL}, // The finest level is drawn.
     {"MSFT_texture_dds", NULL},
 };
 
@@ -76,28 +83,19 @@ static void add_listed(Names *names, const cJSON *list) {
     }
 }
 
-// Adds the extensions of an object. A file may use extensions that it does not list.
+// Adds the extensions that an object and those within it use. A file may use extensions that it
+// does not list. `extras` hold anything, and so no extensions.
 static void add_used(Names *names, const cJSON *object) {
-    const cJSON *used = cJSON_GetObjectItemCaseSensitive(object, "extensions");
-    for (const cJSON *item = used ? used->child : NULL; item; item = item->next) {
-        if (item->string) {
-            add_name(names, item->string);
+    for (const cJSON *item = object->child; item; item = item->next) {
+        if (item->string && strcmp(item->string, "extras") == 0) {
+            continue;
         }
-    }
-}
-
-static void add_all_used(Names *names, const DipGltf *gltf) {
-    static const DipGltfTable tables[] = {DIP_GLTF_materials, DIP_GLTF_textures, DIP_GLTF_nodes,
-                                          DIP_GLTF_meshes};
-    for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
-        const DipGltfItems *table = &gltf->tables[tables[t]];
-        for (int i = 0; i < table->count; ++i) {
-            add_used(names, table->items[i]);
-            const cJSON *parts = cJSON_GetObjectItemCaseSensitive(table->items[i], "primitives");
-            for (const cJSON *part = parts ? parts->child : NULL; part; part = part->next) {
-                add_used(names, part);
-            }
+        const bool uses =
+            item->string && strcmp(item->string, "extensions") == 0 && cJSON_IsObject(item);
+        for (const cJSON *used = uses ? item->child : NULL; used; used = used->next) {
+            add_name(names, used->string);
         }
+        add_used(names, item);
     }
 }
 
@@ -169,14 +167,36 @@ static void warn_of_maps(const DipGltf *gltf, DipModel *model) {
     }
 }
 
+static bool has_attribute(const cJSON *primitive, const char *name) {
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(primitive, "attributes");
+    return cJSON_GetObjectItemCaseSensitive(list, name) != NULL;
+}
+
+// True if a morph target of the primitive has an attribute whose name begins like this.
+static bool has_target(const cJSON *primitive, const char *begin) {
+    const cJSON *targets = cJSON_GetObjectItemCaseSensitive(primitive, "targets");
+    for (const cJSON *target = targets ? targets->child : NULL; target; target = target->next) {
+        for (const cJSON *item = target->child; item; item = item->next) {
+            if (item->string && strncmp(item->string, begin, strlen(begin)) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Warns once if a primitive has an attribute, or a morph target with an attribute of this kind.
 static void warn_of_attributes(const DipGltf *gltf, DipModel *model) {
     static const struct {
         const char *name;
         const char *loss;
+        bool (*is_in)(const cJSON *primitive, const char *name);
     } attributes[] = {
-        {"COLOR_1", "a second set of vertex colours is not drawn"},
-        {"JOINTS_1", "a vertex follows its first four joints only"},
-        {"TEXCOORD_8", "texture coordinates beyond the eighth set are not read"},
+        {"COLOR_1", "a second set of vertex colours is not drawn", has_attribute},
+        {"JOINTS_1", "a vertex follows its first four joints only", has_attribute},
+        {"TEXCOORD_8", "texture coordinates beyond the eighth set are not read", has_attribute},
+        {"COLOR_", "morph targets do not change the vertices' colours", has_target},
+        {"TEXCOORD_", "morph targets do not move texture coordinates", has_target},
     };
     const DipGltfItems *meshes = &gltf->tables[DIP_GLTF_meshes];
     for (size_t a = 0; a < sizeof attributes / sizeof *attributes; ++a) {
@@ -184,8 +204,7 @@ static void warn_of_attributes(const DipGltf *gltf, DipModel *model) {
         for (int i = 0; !found && i < meshes->count; ++i) {
             const cJSON *parts = cJSON_GetObjectItemCaseSensitive(meshes->items[i], "primitives");
             for (const cJSON *part = parts ? parts->child : NULL; part; part = part->next) {
-                const cJSON *list = cJSON_GetObjectItemCaseSensitive(part, "attributes");
-                found = found || cJSON_GetObjectItemCaseSensitive(list, attributes[a].name);
+                found = found || attributes[a].is_in(part, attributes[a].name);
             }
         }
         if (found) {
@@ -213,7 +232,7 @@ bool dip_gltf_check_extensions(const DipGltf *gltf, DipModel *model) {
     }
     Names all = required;
     add_listed(&all, cJSON_GetObjectItemCaseSensitive(gltf->json, "extensionsUsed"));
-    add_all_used(&all, gltf);
+    add_used(&all, gltf->json);
     for (int i = required.count; i < all.count; ++i) {
         warn_of_extension(gltf, model, all.items[i], "extensionsUsed");
     }
