@@ -16,11 +16,11 @@ typedef struct Extension {
 } Extension;
 
 static const Extension extensions[] = {
-    {"EXT_instance_features", NULL}, // This and the next names give data, not looks.
-    {"EXT_mesh_features", NULL},
-    {"EXT_structural_metadata", NULL},
+    {"EXT_instance_features", NULL}, // It numbers parts, but does not describe their looks.
+    {"EXT_mesh_features", NULL},     // The same.
     {"EXT_mesh_gpu_instancing", NULL},
     {"EXT_meshopt_compression", NULL},
+    {"EXT_structural_metadata", NULL}, // It describes numbered parts, but not their looks.
     {"EXT_texture_webp", NULL},
     {"KHR_animation_pointer", "is not played: what it moves, such as materials, lights and lenses, "
                               "stays as it is at rest"},
@@ -36,8 +36,8 @@ static const Extension extensions[] = {
     {"KHR_materials_unlit", NULL},
     {"KHR_materials_variants", "is not drawn: the surfaces have the materials of the first look"},
     {"KHR_mesh_quantization", NULL},
-    {"KHR_node_hoverability", NULL}, // This and the next describe what a pointer can do.
-    {"KHR_node_selectability", NULL},
+    {"KHR_node_hoverability", NULL},  // It is for programs in which a user points at nodes.
+    {"KHR_node_selectability", NULL}, // The same.
     {"KHR_node_visibility", NULL},
     {"KHR_texture_basisu", NULL}, // Each picture gives a message of its own.
     {"KHR_texture_transform", NULL},
