@@ -435,7 +435,7 @@ static void broken_files_are_searched_safely(void **state) {
     add_mesh(&binary, false, 5.0f, "RedM");
     static const uint8_t odd[] = "{}{}{}{}\";#/,\n \1\7\12\13\xff\x80";
     uint32_t random = 1;
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < 600; ++i) {
         uint8_t bytes[4000];
         const bool is_binary = i % 2 == 1;
         const size_t whole = is_binary ? binary.count : sizeof text - 1;
