@@ -593,6 +593,73 @@ static void readings_that_are_not_allowed_are_refused_by_name(void **state) {
     assert_true(draw_reading(stage, NULL, 4, NULL)); // the pipeline still works
 }
 
+// Draws two passes at once. The shader of the second one reads what `reading` names.
+static bool draw_beside(const Stage *stage, const DipPass *drawing, Reading *reading,
+                        DipError *err) {
+    DipDraw draw = stage->draw;
+    draw.fragment_shader = read_as_told;
+    draw.uniforms = reading;
+    DipPass pass = good_pass(stage, 1);
+    pass.draws = &draw;
+    const DipPassWork works[2] = {{stage->pipelines[0], drawing, NULL, NULL, NULL},
+                                  {stage->pipelines[1], &pass, NULL, NULL, NULL}};
+    return dip_pipeline_draw_passes(works, 2, false, err);
+}
+
+// Passes that are drawn at once have no order, so none may read what another one draws.
+static void a_pass_reads_nothing_that_is_drawn_at_once(void **state) {
+    const Stage *stage = *state;
+    DipPass drawing = good_pass(stage, 0);
+    DipError err = {0};
+    assert_false(draw_beside(stage, &drawing, &(Reading){.target = &drawing.target}, &err));
+    assert_int_equal(err.code, DIP_ERROR_CONFLICT);
+    assert_string_equal(err.key, "draws[0].sample_target");
+    assert_non_null(strstr(err.message, "at once"));
+    DipDepth *depth = dip_depth_create(WIDTH, HEIGHT, 1, NULL);
+    const DipShadowMap map = {.depth = depth};
+    drawing.attachments.depth = depth;
+    drawing.sample_count = 1;
+    assert_false(draw_beside(stage, &drawing, &(Reading){.shadow = &map}, &err));
+    assert_string_equal(err.key, "draws[0].sample_shadow");
+    drawing.attachments.depth = NULL;
+    assert_true(draw_beside(stage, &drawing, &(Reading){.shadow = &map}, &err));
+    dip_depth_destroy(&depth);
+}
+
+// A target that lies beside the drawn one in a larger picture shares no bytes with it, and may be
+// read. One column further to the left, or to the right and so in the next row, it does.
+static void a_pass_reads_targets_beside_the_drawn_one(void **state) {
+    enum { STRIDE = 3 * WIDTH * 4, COLUMNS = 5, ROWS = 4 };
+    static uint8_t picture[(HEIGHT + ROWS) * STRIDE];
+    static const struct {
+        int column, row;
+        bool beside;
+    } cases[] = {{WIDTH, 0, true},
+                 {WIDTH - 1, 0, false},
+                 {WIDTH, ROWS, true},
+                 {WIDTH - 1, ROWS, false},
+                 {3 * WIDTH - COLUMNS, 0, true},
+                 {3 * WIDTH - COLUMNS + 1, 0, false}};
+    const Stage *stage = *state;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        DipPass drawing = good_pass(stage, 0);
+        drawing.target.rgba8 = picture;
+        drawing.target.stride_bytes = STRIDE;
+        const DipTarget read = {.rgba8 = picture + cases[c].row * STRIDE + cases[c].column * 4,
+                                .stride_bytes = STRIDE,
+                                .width = COLUMNS,
+                                .height = ROWS};
+        assert_int_equal(draw_beside(stage, &drawing, &(Reading){.target = &read}, NULL),
+                         cases[c].beside);
+        // The same with the read target before the drawn one.
+        const DipTarget first = {
+            .rgba8 = picture, .stride_bytes = STRIDE, .width = COLUMNS, .height = ROWS};
+        drawing.target.rgba8 = picture + (COLUMNS - !cases[c].beside) * 4;
+        assert_int_equal(draw_beside(stage, &drawing, &(Reading){.target = &first}, NULL),
+                         cases[c].beside);
+    }
+}
+
 // --- what shaders leave unset --------------------------------------------------------------------
 
 static void leave_unset(DipFragmentBatch *batch) {
@@ -767,6 +834,8 @@ int main(void) {
         cmocka_unit_test(the_fault_of_one_draw_of_many_names_its_index),
         cmocka_unit_test(missing_pointers_are_refused_or_have_a_meaning),
         cmocka_unit_test(readings_that_are_not_allowed_are_refused_by_name),
+        cmocka_unit_test(a_pass_reads_nothing_that_is_drawn_at_once),
+        cmocka_unit_test(a_pass_reads_targets_beside_the_drawn_one),
         cmocka_unit_test(what_shaders_leave_unset_is_zero),
         cmocka_unit_test(varyings_that_a_draw_lacks_are_dropped),
         cmocka_unit_test(a_list_of_no_draws_is_legal),
