@@ -579,6 +579,30 @@ static bool draw_reading(const Stage *stage, const BadReading *bad, int samples,
     return drawn;
 }
 
+static void read_last_sampler(DipFragmentBatch *batch) {
+    batch->sample_colour(batch, &batch->samplers[DIP_MAX_SAMPLERS - 1], 0, batch->colour);
+}
+
+static void the_last_sampler_can_be_read(void **state) {
+    const Stage *stage = *state;
+    static const uint8_t texel[4] = {10, 200, 30, 255};
+    const DipTextureDef def = {.name = "green", .width = 1, .height = 1, .rgba8 = texel};
+    DipTexture *texture = dip_texture_create(&def, NULL);
+    DipSampler samplers[DIP_MAX_SAMPLERS] = {[DIP_MAX_SAMPLERS - 1] = {.texture = texture}};
+    DipDraw draw = stage->draw;
+    draw.vertex_shader = three_varyings;
+    draw.fragment_shader = read_last_sampler;
+    draw.varying_count = 2;
+    draw.samplers = samplers;
+    DipPass pass = good_pass(stage, 0);
+    pass.draws = &draw;
+    pass.sample_count = 1;
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
+    const uint8_t *middle = pictures[0][0] + (HEIGHT / 2 * WIDTH + WIDTH / 2) * 4;
+    assert_memory_equal(middle, texel, sizeof texel);
+    dip_texture_destroy(&texture);
+}
+
 static void readings_that_are_not_allowed_are_refused_by_name(void **state) {
     const Stage *stage = *state;
     assert_true(draw_reading(stage, NULL, 4, NULL)); // max_anisotropy is 0, which means 1
@@ -731,6 +755,23 @@ static void what_shaders_leave_unset_is_zero(void **state) {
     }
 }
 
+// The alpha that a shader leaves unset is 1: a blended draw without colours is black on white.
+static void the_alpha_that_shaders_leave_unset_is_one(void **state) {
+    const Stage *stage = *state;
+    static const DipDrawState blended = {.blend = DIP_BLEND_MODE_ALPHA};
+    static const uint8_t black[4] = {0, 0, 0, 255};
+    DipDraw draw = stage->draw;
+    draw.fragment_shader = leave_unset;
+    draw.state = &blended;
+    DipPass pass = good_pass(stage, 0);
+    pass.draws = &draw;
+    pass.clear_lin[0] = pass.clear_lin[1] = pass.clear_lin[2] = 1.0f;
+    assert_true(dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, NULL));
+    const uint8_t *middle = pictures[0][0] + (HEIGHT / 2 * WIDTH + WIDTH / 2) * 4;
+    assert_memory_equal(middle, black, sizeof black);
+    assert_int_equal(pictures[0][0][0], 255); // The corner shows no triangle.
+}
+
 // A vertex shader may write varyings that a draw does not have: they change nothing.
 static void varyings_that_a_draw_lacks_are_dropped(void **state) {
     const Stage *stage = *state;
@@ -833,10 +874,12 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fault_of_one_draw_of_many_names_its_index),
         cmocka_unit_test(missing_pointers_are_refused_or_have_a_meaning),
+        cmocka_unit_test(the_last_sampler_can_be_read),
         cmocka_unit_test(readings_that_are_not_allowed_are_refused_by_name),
         cmocka_unit_test(a_pass_reads_nothing_that_is_drawn_at_once),
         cmocka_unit_test(a_pass_reads_targets_beside_the_drawn_one),
         cmocka_unit_test(what_shaders_leave_unset_is_zero),
+        cmocka_unit_test(the_alpha_that_shaders_leave_unset_is_one),
         cmocka_unit_test(varyings_that_a_draw_lacks_are_dropped),
         cmocka_unit_test(a_list_of_no_draws_is_legal),
         cmocka_unit_test(threads_may_draw_with_pipelines_of_one_pool),
