@@ -323,6 +323,10 @@ static bool import_bare(DipModel *model, DipModelFile *file, const DipXReference
                                                (unsigned)references->text_bytes, 0, "x")
                       : aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
+    if (log.warning_count > MAX_LOG_WARNINGS) {
+        dip_model_warn(model, file->path, NULL, "assimp gives %d more warnings, which are left out",
+                       log.warning_count - MAX_LOG_WARNINGS);
+    }
     if (log.names_no_mtl) {
         dip_model_warn(model, file->path, NULL,
                        "the file names no .mtl file with its materials, so its surfaces are grey");

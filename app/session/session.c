@@ -255,7 +255,26 @@ static bool prepare_panes(DipSession *session, DipErrorList *faults) {
     return prepared;
 }
 
+// Keeps the warnings of the list from the index `first` on.
+static bool keep_warnings(DipSession *session, DipErrorList *faults, size_t first) {
+    size_t wanted = 0;
+    for (size_t i = first; i < faults->count; i++) {
+        if (faults->items[i].severity != DIP_SEVERITY_WARNING) {
+            continue;
+        }
+        if (wanted < DIP_SESSION_MAX_WARNINGS) {
+            dip_error_list_add(&session->warnings, &faults->items[i]);
+            wanted++;
+        } else {
+            session->warnings_left_out++;
+        }
+    }
+    return session->warnings.count == wanted ||
+           dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "warnings", "out of memory");
+}
+
 bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults) {
+    const size_t faults_before = faults->count;
     *session =
         (DipSession){.options = def->options, .importer = def->importer, .isa = DIP_ISA_SCALAR};
     session->times.begin_ns = def->begin_ns;
@@ -269,7 +288,8 @@ bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorLis
     if (opened) {
         set_reflection(session);
     }
-    opened = opened && (!def->renderers || prepare_panes(session, faults));
+    opened = opened && (!def->renderers || prepare_panes(session, faults)) &&
+             keep_warnings(session, faults, faults_before);
     session->times.opened_ns = dip_clock_ns();
     if (!opened) {
         dip_session_close(session);
@@ -292,6 +312,7 @@ void dip_session_close(DipSession *session) {
     free(session->environment);
     dip_pool_destroy(&session->pool);
     dip_config_free(&session->config);
+    dip_error_list_free(&session->warnings);
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
 }
 

@@ -51,6 +51,7 @@ static const Extension extensions[] = {
 typedef struct Names {
     const char *items[MAX_EXTENSIONS];
     int count;
+    bool has_more; // True if there are others, for which there is no room.
 } Names;
 
 // --- extensions ----------------------------------------------------------------------------------
@@ -72,6 +73,8 @@ static void add_name(Names *names, const char *name) {
     }
     if (names->count < MAX_EXTENSIONS) {
         names->items[names->count++] = name;
+    } else {
+        names->has_more = true;
     }
 }
 
@@ -116,6 +119,11 @@ static void warn_of_extension(const DipGltf *gltf, DipModel *model, const char *
 }
 
 static bool check_required(const DipGltf *gltf, DipModel *model, const Names *required) {
+    if (required->has_more) {
+        return dip_gltf_refuse(gltf, DIP_ERROR_UNSUPPORTED, "extensionsRequired",
+                               "the model needs more than %d glTF extensions, accepted %d",
+                               MAX_EXTENSIONS, MAX_EXTENSIONS);
+    }
     for (int i = 0; i < required->count; ++i) {
         const char *name = required->items[i];
         if (is_needed(name)) {
@@ -235,6 +243,11 @@ bool dip_gltf_check_extensions(const DipGltf *gltf, DipModel *model) {
     add_used(&all, gltf->json);
     for (int i = required.count; i < all.count; ++i) {
         warn_of_extension(gltf, model, all.items[i], "extensionsUsed");
+    }
+    if (all.has_more) {
+        dip_model_warn(model, gltf->path, "extensionsUsed",
+                       "the file uses more than %d glTF extensions, of which only %d are checked",
+                       MAX_EXTENSIONS, MAX_EXTENSIONS);
     }
     warn_of_maps(gltf, model);
     warn_of_attributes(gltf, model);
