@@ -7,6 +7,7 @@
 #include "app/import/import.h"
 #include "app/cli/log.h"
 #include "app/cli/machine.h"
+#include "app/cli/program_file.h"
 #include "renderer/base/clock.h"
 
 #include <stdio.h>
@@ -68,7 +69,7 @@ static int run_command(const DipCommandLine *line, int64_t begin_ns) {
     const DipCommand *command = line->command;
     if (command->describe_session) {
         // Another process of this program, `diptych import`, imports the models.
-        const DipImporter importer = {.program = "/proc/self/exe",
+        const DipImporter importer = {.program = dip_program_file(),
                                       .command = dip_import_command.name};
         DipSessionDef def = {.importer = &importer, .log = program->log, .begin_ns = begin_ns};
         command->describe_session(line->options, &def);

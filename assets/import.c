@@ -4,6 +4,7 @@
 // checked, and only then processed. assimp's readers recurse as deep as the file nests, so they run
 // on a thread with a large stack. precheck.c limits the depth.
 #include "assets/model_parts.h"
+#include "assets/x_references.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/file.h"
 
@@ -310,13 +311,22 @@ static void add_log_line(const char *line, char *user) {
     }
 }
 
-static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
+// references: those of an X file. For all other files, it is empty.
+static bool import_bare(DipModel *model, DipModelFile *file, const DipXReferences *references,
+                        DipError *err) {
     ImportLog log = {.model = model, .path = file->path};
     const size_t warnings_before = model->warnings ? model->warnings->count : 0;
     const struct aiLogStream stream = {add_log_line, (char *)(void *)&log};
     aiAttachLogStream(&stream);
-    file->scene = aiImportFile(file->path, 0);
+    file->scene = references->text
+                      ? aiImportFileFromMemory((const char *)references->text,
+                                               (unsigned)references->text_bytes, 0, "x")
+                      : aiImportFile(file->path, 0);
     aiDetachLogStream(&stream);
+    if (log.warning_count > MAX_LOG_WARNINGS) {
+        dip_model_warn(model, file->path, NULL, "assimp gives %d more warnings, which are left out",
+                       log.warning_count - MAX_LOG_WARNINGS);
+    }
     if (log.names_no_mtl) {
         dip_model_warn(model, file->path, NULL,
                        "the file names no .mtl file with its materials, so its surfaces are grey");
@@ -336,8 +346,20 @@ static bool import_bare(DipModel *model, DipModelFile *file, DipError *err) {
                                                  "a face uses a vertex that does not exist");
 }
 
+// Imports a file without assimp's processing.
+static bool import_checked(DipModel *model, DipModelFile *file, DipError *err) {
+    DipXReferences references = {0};
+    const bool ok =
+        (!has_ending(file->path, ".x") || dip_x_references_read(file->path, &references, err)) &&
+        import_bare(model, file, &references, err) &&
+        check_scene(file->path, file->scene, false, err) &&
+        dip_x_references_resolve(model, file->path, &references, file->scene, err);
+    dip_x_references_free(&references);
+    return ok;
+}
+
 static bool import_and_check(DipModel *model, DipModelFile *file, DipError *err) {
-    if (!import_bare(model, file, err) || !check_scene(file->path, file->scene, false, err)) {
+    if (!import_checked(model, file, err)) {
         return false;
     }
     mend_scene(file->scene);

@@ -6,6 +6,7 @@
 #include "app/bench/synthetic.h"
 #include "app/bench/table.h"
 #include "app/cli/machine.h"
+#include "app/cli/program_file.h"
 #include "app/cli/progress.h"
 #include "app/files/whole_file.h"
 #include "app/measure/timing/child.h"
@@ -313,7 +314,7 @@ typedef struct Programs {
 static bool open_programs(Programs *programs, const DipProgramOptions *program,
                           const DipBenchPlan *plan, const DipSession *session, DipError *err) {
     const DipBenchOptions *options = &plan->options;
-    const char *const files[2] = {"/proc/self/exe", options->vs};
+    const char *const files[2] = {dip_program_file(), options->vs};
     *programs = (Programs){.count = options->vs ? 2 : 1};
     if (!options->vs) {
         programs->here = create_context(plan, session, err);

@@ -2,6 +2,7 @@
 // the program's file.
 #include "app/cli/machine.h"
 
+#include "app/cli/program_file.h"
 #include "renderer/base/clock.h"
 #include "renderer/base/hash.h"
 
@@ -31,7 +32,7 @@ void dip_machine_processor(char *name, size_t size_bytes) {
 
 void dip_machine_build(char hex[33]) {
     hex[0] = '\0';
-    FILE *in = fopen("/proc/self/exe", "rb");
+    FILE *in = fopen(dip_program_file(), "rb");
     if (!in) {
         return;
     }

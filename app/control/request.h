@@ -77,6 +77,7 @@ typedef enum DipControlTopic {
     X(animations, ANIMATIONS)                                                                      \
     X(scenes, SCENES)                                                                              \
     X(steps, STEPS)                                                                                \
+    X(warnings, WARNINGS)                                                                          \
     X(prices, PRICES)
 
 typedef enum DipControlPart {

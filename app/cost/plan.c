@@ -396,7 +396,10 @@ bool dip_cost_plan(DipCostReport *report, const DipSession *session, const DipCo
     for (int path = 0; path < report->path_count; path++) {
         dip_cost_hash_path(report, session, path);
     }
-    return dip_cost_report_alloc(report, err);
+    report->warnings_left_out = session->warnings_left_out;
+    return dip_cost_report_add_warnings(report, session->warnings.items,
+                                        (int)session->warnings.count, err) &&
+           dip_cost_report_alloc(report, err);
 }
 
 void dip_cost_plan_hash(const DipCostReport *report, const DipSession *session, char hex[33]) {

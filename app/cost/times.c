@@ -5,6 +5,7 @@
 // To time rows, unless --starts is 1, the program starts itself several times with --serve, one
 // process after another, and asks each for the frames to time. Times differ from process to
 // process, since chance decides where a process has its memory and which cores its threads get.
+#include "app/cli/program_file.h"
 #include "app/cli/progress.h"
 #include "app/cost/steps.h"
 #include "app/measure/timing/child.h"
@@ -176,7 +177,7 @@ static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipE
 static bool start(void *context, int index, DipError *err) {
     Timing *t = context;
     const DipChildDef def = {
-        .program = "/proc/self/exe",
+        .program = dip_program_file(),
         .argv = t->cost->start->argv,
         .argc = t->cost->start->argc,
         .what = "cost",

@@ -96,6 +96,12 @@ static bool dump_frame(DipSession *session, const DipDumpOptions *options, int i
     return written;
 }
 
+// Adds to the record what is known only of the whole run.
+static bool end_record(DipRecord *record, const DipSession *session, DipError *err) {
+    return dip_record_set_warnings(record, &session->warnings, session->warnings_left_out, err) &&
+           dip_record_set_start(record, &session->times, dip_machine_peak_rss_bytes(), err);
+}
+
 static bool write_record(const DipRecord *record, const DipDumpOptions *options, DipError *err) {
     if (options->out) {
         char file[PATH_MAX];
@@ -183,9 +189,8 @@ static bool run(DipSession *session, const void *all_options, DipError *err) {
     dip_interrupt_watch();
     const bool done =
         open_outputs(&outputs, options, err) && dump_frames(session, options, &outputs, err) &&
-        (!outputs.record || (dip_record_set_start(outputs.record, &session->times,
-                                                  dip_machine_peak_rss_bytes(), err) &&
-                             write_record(outputs.record, options, err)));
+        (!outputs.record ||
+         (end_record(outputs.record, session, err) && write_record(outputs.record, options, err)));
     return close_outputs(&outputs, done, err);
 }
 

@@ -111,9 +111,39 @@ bool dip_record_add(DipRecord *record, const DipDrawnFrame *drawn, DipError *err
     return finish(out, err);
 }
 
+// Writes a text, or null if it is empty.
+static void put_text(FILE *out, const char *before, const char *text) {
+    fputs(before, out);
+    if (text[0]) {
+        dip_put_script_string(out, text);
+    } else {
+        fputs("null", out);
+    }
+}
+
+bool dip_record_set_warnings(DipRecord *record, const DipErrorList *warnings, int left_out,
+                             DipError *err) {
+    FILE *out = record->out;
+    fputs("],\n\"warnings\": [", out);
+    for (size_t i = 0; i < warnings->count; i++) {
+        const DipError *warning = &warnings->items[i];
+        put_text(out, i ? ",\n{\"file\": " : "\n{\"file\": ", warning->file);
+        if (warning->line > 0) {
+            fprintf(out, ", \"line\": %d", warning->line);
+        } else {
+            fputs(", \"line\": null", out);
+        }
+        put_text(out, ", \"key\": ", warning->key);
+        put_text(out, ", \"message\": ", warning->message);
+        fputs("}", out);
+    }
+    fprintf(out, "],\n\"warnings_left_out\": %d", left_out);
+    return finish(out, err);
+}
+
 bool dip_record_set_start(DipRecord *record, const DipStartTimes *times, size_t peak_rss_bytes,
                           DipError *err) {
-    const char *between = "],\n\"load_ms\": {";
+    const char *between = ",\n\"load_ms\": {";
 #define PUT_PART(name, text)                                                                       \
     fprintf(record->out, "%s\"%s\": ", between, #name);                                            \
     put_number(record->out, "", times->name##_ms);                                                 \

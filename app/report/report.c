@@ -94,6 +94,45 @@ void dip_cost_row_free(DipCostRow *row) {
     *row = (DipCostRow){0};
 }
 
+static bool has_warning(const DipCostReport *report, int count, const DipError *warning) {
+    for (int i = 0; i < count; i++) {
+        const DipError *known = &report->warnings[i];
+        if (known->line == warning->line && strcmp(known->file, warning->file) == 0 &&
+            strcmp(known->key, warning->key) == 0 &&
+            strcmp(known->message, warning->message) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool dip_cost_report_add_warnings(DipCostReport *report, const DipError *warnings, int count,
+                                  DipError *err) {
+    const int before = report->warning_count;
+    DipError *grown =
+        realloc(report->warnings, ((size_t)before + (size_t)count + 1) * sizeof *grown);
+    if (!grown) {
+        return dip_cost_out_of_memory(err);
+    }
+    report->warnings = grown;
+    for (int i = 0; i < count; i++) {
+        DipError warning = warnings[i];
+        const char *slash = strrchr(warning.file, '/');
+        if (slash) {
+            memmove(warning.file, slash + 1, strlen(slash));
+        }
+        if (has_warning(report, before, &warning)) {
+            continue;
+        }
+        if (report->warning_count < DIP_COST_MAX_WARNINGS) {
+            report->warnings[report->warning_count++] = warning;
+        } else {
+            report->warnings_left_out++;
+        }
+    }
+    return true;
+}
+
 void dip_cost_report_free(DipCostReport *report) {
     for (int r = 0; r < report->row_count; r++) {
         dip_cost_row_free(&report->rows[r]);
@@ -103,6 +142,7 @@ void dip_cost_report_free(DipCostReport *report) {
     free(report->floors);
     free(report->has_floor);
     free(report->predicted.list);
+    free(report->warnings);
     dip_cost_choice_free(&report->choice);
     free(report->analysis);
     dip_times_fit_free(&report->fit);

@@ -37,6 +37,8 @@ enum {
     DIP_COST_MAX_SWEEPS = 24,
     DIP_COST_MAX_SWEEP_ROWS = 8,
     DIP_COST_MAX_REFUSED = 24,
+    DIP_COST_MAX_WARNINGS = 256,
+    DIP_COST_MOST_LEFT_OUT = 1000000000, // Warnings that a file may say it leaves out.
     DIP_COST_MAX_ROWS = 4096,
     DIP_COST_MAX_SMALLER = 4,
     // If more combinations than this are predicted, the work of some is not counted, but composed
@@ -201,6 +203,11 @@ typedef struct DipCostReport {
     int sweep_count;
     char refused[DIP_COST_MAX_REFUSED][DIP_COST_REASON]; // Steps left out of sweeps, with reasons.
     int refused_count;
+    // The warnings that loading the scene gave, in the order of loading. Their file names are
+    // without folders, so that reports of several machines have the same ones. Owned.
+    DipError *warnings;
+    int warning_count;
+    int warnings_left_out;    // Number of further warnings, which `warnings` leaves out.
     int rounds;               // Number of rounds timed; 0 if the report has no times.
     DipDriverMachine machine; // What the timing tells about the machine.
     DipTimed *log; // Every timed frame. A frame's `subject` is the index of its row. Owned; NULL
@@ -243,6 +250,12 @@ bool dip_cost_report_alloc(DipCostReport *report, DipError *err);
 int dip_cost_report_add_row(DipCostReport *report, const DipQuality *quality, int path,
                             DipError *err);
 void dip_cost_report_free(DipCostReport *report);
+
+// Adds warnings to the report, without the folders of their files. Skips those that the report had
+// before the call, and counts those beyond DIP_COST_MAX_WARNINGS as left out. Fails with
+// DIP_ERROR_MEMORY.
+bool dip_cost_report_add_warnings(DipCostReport *report, const DipError *warnings, int count,
+                                  DipError *err);
 
 // Returns the first row from `first` on with these settings on a path, or -1 if there is none.
 int dip_report_find(const DipCostReport *report, const DipQuality *quality, int path, int first);

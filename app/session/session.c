@@ -3,6 +3,7 @@
 #include "app/session/session_private.h"
 
 #include "app/cli/log.h"
+#include "app/cli/program_file.h"
 #include "renderer/base/clock.h"
 
 #include <limits.h>
@@ -45,15 +46,14 @@ bool dip_session_place_fault(const DipSession *session, const DipConfigFile *fil
 
 bool dip_session_find_shipped(const char *name, char *file, size_t size_bytes) {
     static const char *const places[] = {"../..", "../share/diptych"};
-    char program[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length < 0) {
+    const char *program = dip_program_path();
+    if (!program) {
         return false;
     }
-    program[length] = '\0';
-    *strrchr(program, '/') = '\0';
+    const int folder_length = (int)(strrchr(program, '/') - program);
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        const int needed = snprintf(file, size_bytes, "%s/%s/%s", program, places[i], name);
+        const int needed =
+            snprintf(file, size_bytes, "%.*s/%s/%s", folder_length, program, places[i], name);
         if (needed > 0 && (size_t)needed < size_bytes && access(file, R_OK) == 0) {
             return true;
         }
@@ -88,6 +88,12 @@ static bool load_config(DipSession *session, const char *log, DipErrorList *faul
     const char *given = session->options->config;
     const char *named = dip_session_shipped_ini(session->options);
     const char *ini = named ? named : "config/courtyard.ini";
+    if (!given && !dip_program_path()) {
+        return dip_session_refuse(faults, DIP_ERROR_MISSING, NULL, 0, "--config",
+                                  "the system does not tell where this program lies, so %s is not "
+                                  "found; give an ini with --config FILE",
+                                  ini);
+    }
     if (!given && !dip_session_find_shipped(ini, shipped, sizeof shipped)) {
         return dip_session_refuse(faults, DIP_ERROR_MISSING, NULL, 0, "--config",
                                   "%s is not where Diptych was installed; give an ini with "
@@ -249,7 +255,26 @@ static bool prepare_panes(DipSession *session, DipErrorList *faults) {
     return prepared;
 }
 
+// Keeps the warnings of the list from the index `first` on.
+static bool keep_warnings(DipSession *session, DipErrorList *faults, size_t first) {
+    size_t wanted = 0;
+    for (size_t i = first; i < faults->count; i++) {
+        if (faults->items[i].severity != DIP_SEVERITY_WARNING) {
+            continue;
+        }
+        if (wanted < DIP_SESSION_MAX_WARNINGS) {
+            dip_error_list_add(&session->warnings, &faults->items[i]);
+            wanted++;
+        } else {
+            session->warnings_left_out++;
+        }
+    }
+    return session->warnings.count == wanted ||
+           dip_session_refuse(faults, DIP_ERROR_MEMORY, NULL, 0, "warnings", "out of memory");
+}
+
 bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorList *faults) {
+    const size_t faults_before = faults->count;
     *session =
         (DipSession){.options = def->options, .importer = def->importer, .isa = DIP_ISA_SCALAR};
     session->times.begin_ns = def->begin_ns;
@@ -263,7 +288,8 @@ bool dip_session_open(DipSession *session, const DipSessionDef *def, DipErrorLis
     if (opened) {
         set_reflection(session);
     }
-    opened = opened && (!def->renderers || prepare_panes(session, faults));
+    opened = opened && (!def->renderers || prepare_panes(session, faults)) &&
+             keep_warnings(session, faults, faults_before);
     session->times.opened_ns = dip_clock_ns();
     if (!opened) {
         dip_session_close(session);
@@ -286,6 +312,7 @@ void dip_session_close(DipSession *session) {
     free(session->environment);
     dip_pool_destroy(&session->pool);
     dip_config_free(&session->config);
+    dip_error_list_free(&session->warnings);
     *session = (DipSession){.isa = DIP_ISA_SCALAR};
 }
 

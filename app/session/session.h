@@ -84,6 +84,9 @@ typedef struct DipSessionAnimations {
     int playing; // Index of the animation that the models show, or -1 if they show none.
 } DipSessionAnimations;
 
+// Number of warnings that a session keeps. An ini or a model can cause any number of them.
+enum { DIP_SESSION_MAX_WARNINGS = 256 };
+
 typedef struct DipSession {
     const DipSessionOptions *options; // Borrowed from the def.
     const DipImporter *importer;      // Borrowed from the def.
@@ -132,7 +135,11 @@ typedef struct DipSession {
     DipCamTrack models_track; // Keeps the track of the models while the session shows the gallery.
     char *assets;             // Folder of the shipped assets.
     DipStartTimes times;
-    bool orbiting; // True if the camera orbits the model, because no camera path was given.
+    // The warnings that opening the session gave, in the order of loading: those of the ini first,
+    // then those of the models, their cameras and the camera paths. Records and reports list them.
+    DipErrorList warnings;
+    int warnings_left_out; // Number of further warnings, which are beyond DIP_SESSION_MAX_WARNINGS.
+    bool orbiting;         // True if the camera orbits the model, because no camera path was given.
 } DipSession;
 
 // Loads everything that the def asks for. Adds every error and warning to *faults, with its file

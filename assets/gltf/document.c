@@ -190,9 +190,15 @@ bool dip_gltf_is_version_1(const DipGltf *gltf) {
 }
 
 static bool check_version(const DipGltf *gltf) {
-    return has_version(gltf, "2.") ||
-           dip_gltf_refuse(gltf, DIP_ERROR_FORMAT, "asset",
-                           "the file is not glTF of version 2, accepted 2.0");
+    const cJSON *asset = cJSON_GetObjectItemCaseSensitive(gltf->json, "asset");
+    const cJSON *least = cJSON_GetObjectItemCaseSensitive(asset, "minVersion");
+    if (!has_version(gltf, "2.")) {
+        return dip_gltf_refuse(gltf, DIP_ERROR_FORMAT, "asset",
+                               "the file is not glTF of version 2, accepted 2.0");
+    }
+    return !cJSON_IsString(least) || strcmp(least->valuestring, "2.0") <= 0 ||
+           dip_gltf_refuse(gltf, DIP_ERROR_UNSUPPORTED, "minVersion",
+                           "the file needs a newer version of glTF than 2.0, accepted 2.0");
 }
 
 bool dip_gltf_open(DipGltf *gltf, const char *path, DipError *err) {

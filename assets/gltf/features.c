@@ -16,10 +16,14 @@ typedef struct Extension {
 } Extension;
 
 static const Extension extensions[] = {
+    {"EXT_instance_features", NULL}, // It numbers parts, but does not describe their looks.
+    {"EXT_mesh_features", NULL},     // The same.
     {"EXT_mesh_gpu_instancing", NULL},
     {"EXT_meshopt_compression", NULL},
+    {"EXT_structural_metadata", NULL}, // It describes numbered parts, but not their looks.
     {"EXT_texture_webp", NULL},
-    {"KHR_animation_pointer", NULL},
+    {"KHR_animation_pointer", "is not played: what it moves, such as materials, lights and lenses, "
+                              "stays as it is at rest"},
     {"KHR_draco_mesh_compression", NULL},
     {"KHR_lights_punctual", NULL},
     {"KHR_materials_clearcoat", NULL},
@@ -32,11 +36,14 @@ static const Extension extensions[] = {
     {"KHR_materials_unlit", NULL},
     {"KHR_materials_variants", "is not drawn: the surfaces have the materials of the first look"},
     {"KHR_mesh_quantization", NULL},
+    {"KHR_node_hoverability", NULL},  // It is for programs in which a user points at nodes.
+    {"KHR_node_selectability", NULL}, // The same.
     {"KHR_node_visibility", NULL},
     {"KHR_texture_basisu", NULL}, // Each picture gives a message of its own.
     {"KHR_texture_transform", NULL},
     {"KHR_xmp", NULL}, // It describes the file, not the picture.
     {"KHR_xmp_json_ld", NULL},
+    {"MSFT_lod", NULL}, // The finest level is drawn.
     {"MSFT_texture_dds", NULL},
 };
 
@@ -44,6 +51,7 @@ static const Extension extensions[] = {
 typedef struct Names {
     const char *items[MAX_EXTENSIONS];
     int count;
+    bool has_more; // True if there are others, for which there is no room.
 } Names;
 
 // --- extensions ----------------------------------------------------------------------------------
@@ -65,6 +73,8 @@ static void add_name(Names *names, const char *name) {
     }
     if (names->count < MAX_EXTENSIONS) {
         names->items[names->count++] = name;
+    } else {
+        names->has_more = true;
     }
 }
 
@@ -76,28 +86,19 @@ static void add_listed(Names *names, const cJSON *list) {
     }
 }
 
-// Adds the extensions of an object. A file may use extensions that it does not list.
+// Adds the extensions that an object and those within it use. A file may use extensions that it
+// does not list. `extras` hold anything, and so no extensions.
 static void add_used(Names *names, const cJSON *object) {
-    const cJSON *used = cJSON_GetObjectItemCaseSensitive(object, "extensions");
-    for (const cJSON *item = used ? used->child : NULL; item; item = item->next) {
-        if (item->string) {
-            add_name(names, item->string);
+    for (const cJSON *item = object->child; item; item = item->next) {
+        if (item->string && strcmp(item->string, "extras") == 0) {
+            continue;
         }
-    }
-}
-
-static void add_all_used(Names *names, const DipGltf *gltf) {
-    static const DipGltfTable tables[] = {DIP_GLTF_materials, DIP_GLTF_textures, DIP_GLTF_nodes,
-                                          DIP_GLTF_meshes};
-    for (size_t t = 0; t < sizeof tables / sizeof *tables; ++t) {
-        const DipGltfItems *table = &gltf->tables[tables[t]];
-        for (int i = 0; i < table->count; ++i) {
-            add_used(names, table->items[i]);
-            const cJSON *parts = cJSON_GetObjectItemCaseSensitive(table->items[i], "primitives");
-            for (const cJSON *part = parts ? parts->child : NULL; part; part = part->next) {
-                add_used(names, part);
-            }
+        const bool uses =
+            item->string && strcmp(item->string, "extensions") == 0 && cJSON_IsObject(item);
+        for (const cJSON *used = uses ? item->child : NULL; used; used = used->next) {
+            add_name(names, used->string);
         }
+        add_used(names, item);
     }
 }
 
@@ -118,6 +119,11 @@ static void warn_of_extension(const DipGltf *gltf, DipModel *model, const char *
 }
 
 static bool check_required(const DipGltf *gltf, DipModel *model, const Names *required) {
+    if (required->has_more) {
+        return dip_gltf_refuse(gltf, DIP_ERROR_UNSUPPORTED, "extensionsRequired",
+                               "the model needs more than %d glTF extensions, accepted %d",
+                               MAX_EXTENSIONS, MAX_EXTENSIONS);
+    }
     for (int i = 0; i < required->count; ++i) {
         const char *name = required->items[i];
         if (is_needed(name)) {
@@ -169,14 +175,36 @@ static void warn_of_maps(const DipGltf *gltf, DipModel *model) {
     }
 }
 
+static bool has_attribute(const cJSON *primitive, const char *name) {
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(primitive, "attributes");
+    return cJSON_GetObjectItemCaseSensitive(list, name) != NULL;
+}
+
+// True if a morph target of the primitive has an attribute whose name begins like this.
+static bool has_target(const cJSON *primitive, const char *begin) {
+    const cJSON *targets = cJSON_GetObjectItemCaseSensitive(primitive, "targets");
+    for (const cJSON *target = targets ? targets->child : NULL; target; target = target->next) {
+        for (const cJSON *item = target->child; item; item = item->next) {
+            if (item->string && strncmp(item->string, begin, strlen(begin)) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Warns once if a primitive has an attribute, or a morph target with an attribute of this kind.
 static void warn_of_attributes(const DipGltf *gltf, DipModel *model) {
     static const struct {
         const char *name;
         const char *loss;
+        bool (*is_in)(const cJSON *primitive, const char *name);
     } attributes[] = {
-        {"COLOR_1", "a second set of vertex colours is not drawn"},
-        {"JOINTS_1", "a vertex follows its first four joints only"},
-        {"TEXCOORD_8", "texture coordinates beyond the eighth set are not read"},
+        {"COLOR_1", "a second set of vertex colours is not drawn", has_attribute},
+        {"JOINTS_1", "a vertex follows its first four joints only", has_attribute},
+        {"TEXCOORD_8", "texture coordinates beyond the eighth set are not read", has_attribute},
+        {"COLOR_", "morph targets do not change the vertices' colours", has_target},
+        {"TEXCOORD_", "morph targets do not move texture coordinates", has_target},
     };
     const DipGltfItems *meshes = &gltf->tables[DIP_GLTF_meshes];
     for (size_t a = 0; a < sizeof attributes / sizeof *attributes; ++a) {
@@ -184,8 +212,7 @@ static void warn_of_attributes(const DipGltf *gltf, DipModel *model) {
         for (int i = 0; !found && i < meshes->count; ++i) {
             const cJSON *parts = cJSON_GetObjectItemCaseSensitive(meshes->items[i], "primitives");
             for (const cJSON *part = parts ? parts->child : NULL; part; part = part->next) {
-                const cJSON *list = cJSON_GetObjectItemCaseSensitive(part, "attributes");
-                found = found || cJSON_GetObjectItemCaseSensitive(list, attributes[a].name);
+                found = found || attributes[a].is_in(part, attributes[a].name);
             }
         }
         if (found) {
@@ -213,9 +240,14 @@ bool dip_gltf_check_extensions(const DipGltf *gltf, DipModel *model) {
     }
     Names all = required;
     add_listed(&all, cJSON_GetObjectItemCaseSensitive(gltf->json, "extensionsUsed"));
-    add_all_used(&all, gltf);
+    add_used(&all, gltf->json);
     for (int i = required.count; i < all.count; ++i) {
         warn_of_extension(gltf, model, all.items[i], "extensionsUsed");
+    }
+    if (all.has_more) {
+        dip_model_warn(model, gltf->path, "extensionsUsed",
+                       "the file uses more than %d glTF extensions, of which only %d are checked",
+                       MAX_EXTENSIONS, MAX_EXTENSIONS);
     }
     warn_of_maps(gltf, model);
     warn_of_attributes(gltf, model);

@@ -171,7 +171,6 @@ static void read_tags(DipGltfScene *scene, const cJSON *node, const char *name,
     const cJSON *light_mapped = cJSON_GetObjectItemCaseSensitive(extras, "lightmapped");
     const cJSON *surface = cJSON_GetObjectItemCaseSensitive(extras, "surface");
     if (light_mapped) {
-
         state->light_mapped = cJSON_IsTrue(light_mapped) ||
                               (cJSON_IsNumber(light_mapped) && light_mapped->valuedouble != 0.0);
     }
@@ -199,6 +198,10 @@ static bool add_node(DipGltfScene *scene, const cJSON *json, int node,
     memcpy(placement.world, state->world, sizeof placement.world);
     if (mesh >= 0 && scene->reader.meshes[mesh].count > 0) {
         const bool skinned = has_skin(scene, scene->reader.first_object[node]);
+        if (instancing && skinned && dip_gltf_warns_of(scene, DIP_GLTF_LOSS_SKINNED_COPIES)) {
+            dip_model_warn(scene->model, scene->reader.gltf.path, "EXT_mesh_gpu_instancing",
+                           "a mesh with a skin is drawn once, without its other copies");
+        }
         const bool ok = instancing && !skinned ? add_instances(scene, instancing, node, mesh, state)
                                                : add_parts(scene, node, mesh, state, &placement);
         if (!ok) {

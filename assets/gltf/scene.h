@@ -34,6 +34,8 @@ typedef enum DipGltfLoss {
     DIP_GLTF_LOSS_GLOSS,
     DIP_GLTF_LOSS_LIGHT_MAPPED,
     DIP_GLTF_LOSS_MOVED_LIGHT,
+    DIP_GLTF_LOSS_NORMAL_SCALE,
+    DIP_GLTF_LOSS_SKINNED_COPIES,
 } DipGltfLoss;
 
 // True if the file has not been warned of this loss; it counts as warned from now on.

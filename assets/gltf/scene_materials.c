@@ -206,6 +206,20 @@ static void warn_of_lost_light(Maker *maker) {
     }
 }
 
+// The scale of a normal map belongs to the metallic-roughness description, which surfaces with a
+// light map or one of Diptych's own keys lack.
+static void warn_of_normal_scale(Maker *maker) {
+    const DipMaterialPlan *plan = &maker->plan;
+    const bool is_bumpy =
+        plan->light.picture >= 0 || plan->tag == DIP_TAG_SOLID || plan->tag == DIP_TAG_MASK;
+    if (plan->normal.picture >= 0 && is_bumpy && !plan->pbr && !plan->unlit &&
+        plan->tag != DIP_TAG_WATER && plan->tag != DIP_TAG_SKY && maker->from.normal_scale != 1.0 &&
+        dip_gltf_warns_of(maker->scene, DIP_GLTF_LOSS_NORMAL_SCALE)) {
+        warn(maker, "the scale of a normal map is not drawn on surfaces with a light map or with "
+                    "the keys surface or lightmapped");
+    }
+}
+
 // --- the surface ---------------------------------------------------------------------------------
 
 // Returns how much of a surface without a reflection covers what lies behind it. What is
@@ -297,6 +311,7 @@ static void fill(Maker *maker) {
     }
     dip_material_set_highlight(def, def->roughness, f0);
     warn_of_lost_light(maker);
+    warn_of_normal_scale(maker);
 }
 
 static int add(Maker *maker, DipGltfScene *scene) {

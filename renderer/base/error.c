@@ -104,6 +104,8 @@ void dip_error_list_add(DipErrorList *list, const DipError *err) {
     } else if (!list->count && err->severity == DIP_SEVERITY_ERROR) {
         list->items = (DipError *)&lost;
         list->count = 1;
+    } else if (err->severity == DIP_SEVERITY_ERROR && list->error_count == 1) {
+        list->items[list->count - 1] = *err;
     }
 }
 

@@ -88,9 +88,9 @@ typedef struct DipErrorList {
     size_t error_count; // Number of items that are errors; the others are warnings.
 } DipErrorList;
 
-// Appends a copy of *err. If memory runs out, the list still counts an error but does not keep it.
-// A list that has errors but could not keep the first one holds an error with the code MEMORY, so
-// that a failure is never without a message.
+// Appends a copy of *err. If memory runs out, the list still counts an error but does not keep it,
+// unless it is the first one: a failure is never without a message. The first error then takes the
+// place of the last warning or, in an empty list, becomes an error with the code MEMORY.
 DIP_API void dip_error_list_add(DipErrorList *list, const DipError *err);
 DIP_API void dip_error_list_free(DipErrorList *list);
 

@@ -129,13 +129,16 @@ static void begin_recording(DipPipeline *pipeline) {
     }
 }
 
-static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, DipError *err) {
+static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, const DipPass *const *at_once,
+                       int at_once_count, DipError *err) {
     if (!make_lists(pipeline, pass->draw_count, err) || !make_merge(pipeline, pass, err) ||
         !make_light(pipeline, pass, err)) {
         return false;
     }
     DipTilePass *tile_pass = &pipeline->tile_pass;
     tile_pass->pass = pass;
+    tile_pass->at_once = at_once;
+    tile_pass->at_once_count = at_once_count;
     tile_pass->pattern = dip_sample_pattern_of(pass->sample_count, pass->pattern);
     tile_pass->geometry = &pipeline->geometry;
     set_clear(tile_pass, pass->clear_lin);
@@ -174,6 +177,7 @@ static bool run_geometry(DipPipeline *pipeline, const DipPass *const *passes, in
 // Passes that are drawn at once.
 typedef struct Batch {
     const DipPassWork *works;
+    const DipPass *passes[DIP_MAX_PASSES_AT_ONCE]; // those of the works
     int count;
     bool same_geometry;
     int64_t geometry_ns[DIP_MAX_PASSES_AT_ONCE];
@@ -240,14 +244,10 @@ static void run_tiles(void *context, int tile, int worker_index) {
 
 // Runs the geometry stage for each pass, or once for all passes if they have the same geometry.
 static bool run_geometries(Batch *batch, DipError *err) {
-    const DipPass *passes[DIP_MAX_PASSES_AT_ONCE];
-    for (int i = 0; i < batch->count; i++) {
-        passes[i] = batch->works[i].pass;
-    }
     const int runs = batch->same_geometry ? 1 : batch->count;
     for (int i = 0; i < runs; i++) {
         const int64_t begin_ns = dip_clock_ns();
-        if (!run_geometry(batch->works[i].pipeline, passes + i,
+        if (!run_geometry(batch->works[i].pipeline, batch->passes + i,
                           batch->same_geometry ? batch->count : 1, err)) {
             return false;
         }
@@ -383,7 +383,10 @@ static bool check_copying(const DipPassWork *works, int count, int index, bool s
 static bool draw_batch(Batch *batch, DipError *err) {
     const DipPassWork *works = batch->works;
     for (int i = 0; i < batch->count; i++) {
-        if (!begin_pass(works[i].pipeline, works[i].pass, err)) {
+        batch->passes[i] = works[i].pass;
+    }
+    for (int i = 0; i < batch->count; i++) {
+        if (!begin_pass(works[i].pipeline, works[i].pass, batch->passes, batch->count, err)) {
             return false;
         }
     }

@@ -80,22 +80,23 @@ typedef void DipSampleAlphaSlope(DipFragmentBatch *batch, const DipSampler *samp
                                  float *out, float *slope);
 
 // Reads a target of format DIP_FORMAT_SRGB8 that an earlier pass drew; it may not share memory with
-// the target of this pass. u[i] and v[i] are fractions
-// of the target's size, measured from its top left corner; they are clamped to the target. The
-// function filters bilinearly in linear light and writes out[0..2][i].
+// the target of this pass or of a pass that is drawn at once. u[i] and v[i] are fractions of the
+// target's size, measured from its top left corner; they are clamped to the target. The function
+// filters bilinearly in linear light and writes out[0..2][i].
 typedef void DipSampleTarget(DipFragmentBatch *batch, const DipTarget *target, const float *u,
                              const float *v, float (*out)[DIP_FRAGMENT_BATCH]);
 
-// Compares depths with those that an earlier pass drew, not with those of this pass. u[i] and v[i]
-// are fractions of the map's size, measured from its top left corner. out[i] is the share of light,
-// 0..1: of the stored depths around the point, those that are not nearer than z[i] count as lit
-// (z[i] >= stored). With DIP_SHADOW_LINEAR, each of the four texels around the point is compared
-// first, and the four results are averaged with the weights of bilinear filtering, in 1/256. With
-// DIP_SHADOW_WIDE, each of the nine texels around the point is compared, and the weight of a result
-// is the area that its texel has in common with a square of 2x2 texels around the point. Points
-// beside the map are lit, and those behind its far plane (z < 0) are compared as if they lay on it:
-// they are lit where the map is cleared to 0. Texels beyond the map's border repeat the border. A
-// map is drawn with the depth bias that its filter needs (DipShadowFilter in depth.h).
+// Compares depths with those that an earlier pass drew, not with those of this pass or of a pass
+// that is drawn at once. u[i] and v[i] are fractions of the map's size, measured from its top left
+// corner. out[i] is the share of light, 0..1: of the stored depths around the point, those that are
+// not nearer than z[i] count as lit (z[i] >= stored). With DIP_SHADOW_LINEAR, each of the four
+// texels around the point is compared first, and the four results are averaged with the weights of
+// bilinear filtering, in 1/256. With DIP_SHADOW_WIDE, each of the nine texels around the point is
+// compared, and the weight of a result is the area that its texel has in common with a square of
+// 2x2 texels around the point. Points beside the map are lit, and those behind its far plane (z <
+// 0) are compared as if they lay on it: they are lit where the map is cleared to 0. Texels beyond
+// the map's border repeat the border. A map is drawn with the depth bias that its filter needs
+// (DipShadowFilter in depth.h).
 typedef void DipSampleShadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,
                              const float *v, const float *z, float *out);
 

@@ -278,16 +278,35 @@ def lamps():
 def losses():
     """Features that Diptych does not draw, some of them only used and not listed."""
     m = Model()
-    m.json["extensionsUsed"] = ["KHR_materials_anisotropy", "KHR_materials_variants", "ACME_smell"]
+    m.json["extensionsUsed"] = ["KHR_materials_anisotropy", "KHR_materials_variants", "ACME_smell",
+                                "EXT_mesh_features"]
     m.json["scenes"].append({"nodes": []})
-    one = m.texture(png(1, 1, [(10, 20, 30)]))
+    picture = m.texture(png(1, 1, [(10, 20, 30)]))
+    one = {**picture, "extensions": {"ACME_nested": {}}, "extras": {"extensions": {"ACME_own": 1}}}
     coat = {"clearcoatFactor": 1, "clearcoatTexture": one}
     for name in ("first", "second"):
         m.node(name, m.triangle(material=m.add("materials", {"name": name, "extensions": {
             "KHR_materials_iridescence": {}, "KHR_materials_clearcoat": coat,
             "KHR_materials_sheen": {"sheenColorTexture": one}}})))
     primitive = m.json["meshes"][0]["primitives"][0]
-    primitive["attributes"]["JOINTS_1"] = m.accessor([0] * 12, "VEC4", UBYTE)
+    joints = m.accessor([0] * 12, "VEC4", UBYTE)
+    primitive["attributes"]["JOINTS_1"] = joints
+    primitive["targets"] = [{"TEXCOORD_0": m.accessor(CORNERS, "VEC2")}]
+    bumps = m.add("materials", {"name": "bumps", "normalTexture": {**picture, "scale": .5}})
+    for name in ("third", "fourth"):
+        m.node(name, m.triangle(material=bumps), extras={"surface": "solid"})
+    skinned = m.mesh({"POSITION": m.accessor(TRIANGLE), "NORMAL": m.accessor(UP),
+                      "JOINTS_0": joints, "WEIGHTS_0": m.accessor([1, 0, 0, 0] * 3, "VEC4")})
+    m.add("skins", {"joints": [0]})
+    places = {"TRANSLATION": m.accessor([1, 0, 0, 0, 2, 0])}
+    for name in ("fifth", "sixth"):
+        m.node(name, skinned, skin=0,
+               extensions={"EXT_mesh_gpu_instancing": {"attributes": places}})
+    samplers = [{"input": m.accessor([0, 1], "SCALAR"), "output": m.accessor([0, 1], "SCALAR")}]
+    pointer = {"pointer": "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor"}
+    channel = {"sampler": 0, "target": {"path": "pointer",
+                                        "extensions": {"KHR_animation_pointer": pointer}}}
+    m.add("animations", {"samplers": samplers, "channels": [channel, channel]})
     m.save("losses")
 
 

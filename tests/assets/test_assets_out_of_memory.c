@@ -71,8 +71,9 @@ static void check_loading(const char *how, const char *file, const DipImporter *
 
 static void model_is_loaded_whole_or_not_at_all(void **state) {
     (void)state;
-    static const char *const names[] = {"square.gltf",    "seam.gltf",   "square.obj", "tags.gltf",
-                                        "instances.gltf", "lights.gltf", "motion.gltf"};
+    static const char *const names[] = {"square.gltf", "seam.gltf",      "square.obj",
+                                        "tags.gltf",   "instances.gltf", "lights.gltf",
+                                        "motion.gltf", "references.x"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         check_loading("loading", fixture_data(names[i]), NULL, 40);
     }

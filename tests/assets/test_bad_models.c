@@ -183,6 +183,19 @@ static void required_extensions_in_glb_files_are_refused_too(void **state) {
     assert_refused(fixture_path("required.glb"), DIP_ERROR_UNSUPPORTED, "ACME_packing");
 }
 
+// A file of a later version may say that programs for version 2.0 can read it.
+static void files_for_later_versions_are_refused(void **state) {
+    (void)state;
+    static const char head[] = "{\"asset\":{\"version\":\"2.%d\",\"minVersion\":\"2.%d\"}}";
+    char text[80];
+    snprintf(text, sizeof text, head, 1, 1);
+    fixture_write_text("later.gltf", text);
+    assert_refused(fixture_path("later.gltf"), DIP_ERROR_UNSUPPORTED, "newer version");
+    snprintf(text, sizeof text, head, 1, 0);
+    fixture_write_text("later.gltf", text);
+    assert_refused(fixture_path("later.gltf"), DIP_ERROR_MISSING, "no triangles");
+}
+
 // The file says that Draco has packed its mesh, but holds something else. A build without Draco
 // names the package instead.
 static void malformed_draco_meshes_are_refused(void **state) {
@@ -216,6 +229,7 @@ int main(void) {
         cmocka_unit_test(required_extensions_that_cannot_be_decoded_are_refused),
         cmocka_unit_test(other_mentions_of_extensions_are_ignored),
         cmocka_unit_test(required_extensions_in_glb_files_are_refused_too),
+        cmocka_unit_test(files_for_later_versions_are_refused),
         cmocka_unit_test(malformed_draco_meshes_are_refused),
         cmocka_unit_test(one_bad_file_fails_the_whole_load),
     };

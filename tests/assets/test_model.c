@@ -304,7 +304,8 @@ static void embedded_pictures_are_found_by_name(void **state) {
     const DipSceneDef *def = dip_model_scene_def(model);
     // assimp's warnings say what the small file leaves out.
     for (size_t i = 0; i < warnings.count; ++i) {
-        assert_non_null(strstr(warnings.items[i].message, "FBX-DOM"));
+        const bool last = i == warnings.count - 1; // Counts the warnings that are left out.
+        assert_non_null(strstr(warnings.items[i].message, last ? "more warnings" : "FBX-DOM"));
     }
     dip_error_list_free(&warnings);
     assert_int_equal(def->texture_count, 2);
@@ -506,6 +507,67 @@ static void a_rule_that_no_surface_uses_gives_a_warning(void **state) {
     dip_model_destroy(&model);
 }
 
+// A file may give any number of warnings. Those that are left out are counted.
+static void many_warnings_of_assimp_are_counted(void **state) {
+    (void)state;
+    static const int materials[] = {8, 9, 12};
+    fixture_write_text("many.mtl", "newmtl paint\n");
+    for (int i = 0; i < 3; ++i) {
+        char text[1024] = "mtllib many.mtl\no made\nv 0 0 0\nv 1 0 0\nv 0 1 0\n", last[64];
+        for (int m = 0; m < materials[i]; ++m) {
+            snprintf(text + strlen(text), sizeof text - strlen(text), "usemtl u%d\nf 1 2 3\n", m);
+        }
+        fixture_write_text("many.obj", text);
+        DipErrorList warnings = {0};
+        DipModel *model = load(fixture_path("many.obj"), NULL, &warnings);
+        assert_int_equal(warnings.count, materials[i] > 8 ? 9 : 8);
+        snprintf(last, sizeof last, "assimp gives %d more warnings", materials[i] - 8);
+        assert_int_equal(strstr(warnings.items[warnings.count - 1].message, last) != NULL,
+                         materials[i] > 8);
+        dip_error_list_free(&warnings);
+        dip_model_destroy(&model);
+    }
+}
+
+// Writes a triangle that lists a number of unknown extensions. Returns the name of its file.
+static const char *write_extensions(const char *list, const char *first, int count) {
+    char text[4096];
+    size_t length = (size_t)snprintf(
+        text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"%s\":[\"%s\"", list, first);
+    for (int i = 1; i < count; ++i) {
+        length += (size_t)snprintf(text + length, sizeof text - length, ",\"KHR_materials_%d\"", i);
+    }
+    snprintf(text + length, sizeof text - length,
+             "],\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+             "\"accessors\":[{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]}");
+    fixture_write_text("extensions.gltf", text);
+    return fixture_path("extensions.gltf");
+}
+
+// Any number of extensions may be listed, but only some are named. A file that needs more than can
+// be checked is refused.
+static void too_many_extensions_are_told(void **state) {
+    (void)state;
+    for (int count = 64; count <= 65; ++count) {
+        DipErrorList warnings = {0};
+        DipModel *model =
+            load(write_extensions("extensionsUsed", "KHR_materials_0", count), NULL, &warnings);
+        assert_int_equal(warnings.count, count);
+        assert_int_equal(strstr(warnings.items[count - 1].message, "more than 64") != NULL,
+                         count > 64);
+        dip_error_list_free(&warnings);
+        dip_model_destroy(&model);
+        const char *path = write_extensions("extensionsRequired", "KHR_materials_0", count);
+        DipError err = {0};
+        model = dip_model_load(&path, 1, NULL, NULL, &err);
+        assert_int_equal(model != NULL, count == 64);
+        assert_true(model || (err.code == DIP_ERROR_UNSUPPORTED &&
+                              strcmp(err.key, "extensionsRequired") == 0));
+        dip_model_destroy(&model);
+    }
+}
+
 static void points_and_lines_give_a_warning_with_their_number(void **state) {
     (void)state;
     DipErrorList warnings = {0};
@@ -641,6 +703,8 @@ int main(void) {
         cmocka_unit_test(a_missing_picture_gives_a_warning),
         cmocka_unit_test(materials_of_x_files_may_be_named_by_reference),
         cmocka_unit_test(a_rule_that_no_surface_uses_gives_a_warning),
+        cmocka_unit_test(many_warnings_of_assimp_are_counted),
+        cmocka_unit_test(too_many_extensions_are_told),
         cmocka_unit_test(points_and_lines_give_a_warning_with_their_number),
         cmocka_unit_test(ply_colours_become_linear),
         cmocka_unit_test(stl_and_x_files_load_together),

@@ -8,6 +8,8 @@ source=$1 build=$2 to=$3
 . "$source/tests/install/installed.sh"
 
 command=$(documented install.md 'cmake --install')
+grep -qF "$(tail -1 "$folder/documented")" "$source/README.md" ||
+    fail "README.md installs by another command than docs/install.md"
 run_quietly "the build cannot be installed" sh -c "$command"
 rm -rf "$to"
 mv "$prefix" "$to"

@@ -1,5 +1,6 @@
 // Runs the command `diptych cost diff`: reads its options, finds out what A and B are, compares
 // them and judges the result.
+#include "app/cli/program_file.h"
 #include "app/cost/command.h"
 #include "app/cost/diff/diff.h"
 #include "app/report/format/formats.h"
@@ -103,7 +104,7 @@ static const char *program_of(const char *name) {
     struct stat status;
     const size_t length = strlen(name);
     if (strcmp(name, ".") == 0) {
-        return "/proc/self/exe";
+        return dip_program_file();
     }
     const bool is_report = (length >= 5 && strcmp(name + length - 5, ".json") == 0) ||
                            stat(name, &status) != 0 || S_ISDIR(status.st_mode) ||

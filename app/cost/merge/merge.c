@@ -65,6 +65,15 @@ static void copy_viewpoints(DipCostReport *to, const DipCostReport *from) {
     }
 }
 
+// Adds the warnings that only the part has. The same scene gives all parts the same warnings,
+// unless different versions of Diptych or of its libraries measured them.
+static bool add_warnings(DipCostReport *report, const DipCostReport *part, DipError *err) {
+    if (report->warnings_left_out < part->warnings_left_out) {
+        report->warnings_left_out = part->warnings_left_out;
+    }
+    return dip_cost_report_add_warnings(report, part->warnings, part->warning_count, err);
+}
+
 // Returns whether two reports surely come from different builds. The build may be unknown ("").
 static bool are_other_builds(const DipCostReport *a, const DipCostReport *b) {
     return a->build[0] && b->build[0] && strcmp(a->build, b->build) != 0;
@@ -100,7 +109,11 @@ static bool read_parts(const Arguments *arguments, DipCostReport *report, DipCos
             part = swap;
         }
         copy_viewpoints(report, &part);
+        const bool added = add_warnings(report, &part, err);
         dip_cost_report_free(&part);
+        if (!added) {
+            return false;
+        }
     }
     return true;
 }

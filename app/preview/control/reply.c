@@ -1,6 +1,7 @@
 // Writes the preview's state, times, errors and prices as JSON.
 #include "app/preview/control/reply_private.h"
 
+#include "app/files/put.h"
 #include "config/config.h"
 
 #include <cjson/cJSON.h>
@@ -192,6 +193,38 @@ static void add_steps(cJSON *object, const DipPreviewMoment *moment) {
     }
 }
 
+// Adds a text, or null if it is empty. Control characters and malformed UTF-8 become '?'.
+static void add_text(cJSON *object, const char *name, char *text) {
+    dip_put_clean(text);
+    if (text[0]) {
+        cJSON_AddStringToObject(object, name, text);
+    } else {
+        cJSON_AddNullToObject(object, name);
+    }
+}
+
+static cJSON *describe_warning(DipError warning) {
+    cJSON *object = cJSON_CreateObject();
+    add_text(object, "file", warning.file);
+    if (warning.line > 0) {
+        cJSON_AddNumberToObject(object, "line", warning.line);
+    } else {
+        cJSON_AddNullToObject(object, "line");
+    }
+    add_text(object, "key", warning.key);
+    add_text(object, "message", warning.message);
+    return object;
+}
+
+static void add_warnings(cJSON *object, const DipPreviewMoment *moment) {
+    const DipErrorList *warnings = &moment->session->warnings;
+    cJSON *array = cJSON_AddArrayToObject(object, "warnings");
+    for (size_t i = 0; i < warnings->count; ++i) {
+        append(array, describe_warning(warnings->items[i]));
+    }
+    cJSON_AddNumberToObject(object, "warnings_left_out", moment->session->warnings_left_out);
+}
+
 void dip_reply_pick(cJSON *object, const DipPreviewMoment *moment, int x, int y) {
     cJSON_AddNumberToObject(object, "x", x);
     cJSON_AddNumberToObject(object, "y", y);
@@ -291,4 +324,5 @@ const DipReplyPart dip_reply_parts[DIP_CONTROL_PART_COUNT] = {
     [DIP_CONTROL_PART_ANIMATIONS] = {add_animations, true},
     [DIP_CONTROL_PART_SCENES] = {add_scenes, true},
     [DIP_CONTROL_PART_STEPS] = {add_steps, true},
+    [DIP_CONTROL_PART_WARNINGS] = {add_warnings, true},
 };

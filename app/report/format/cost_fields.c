@@ -55,6 +55,25 @@ bool dip_cost_are_sums(const DipMetricSums *sums) {
 static const DipField left_out_element = {
     .kind = DIP_FIELD_TEXT, .size = DIP_COST_REASON, .stride = DIP_COST_REASON};
 
+#define WARNING_TEXT(member, known_if, means)                                                      \
+    { #member, NULL, NULL, means, DIP_FACT(TEXT, DipError, member), .known = known_if }
+DIP_OF_ITEM(bool, has_file, ((const DipError *)at->item)->file[0] != '\0')
+DIP_OF_ITEM(bool, has_line, ((const DipError *)at->item)->line > 0)
+DIP_OF_ITEM(bool, has_key, ((const DipError *)at->item)->key[0] != '\0')
+static const DipField warning_fields[] = {
+    WARNING_TEXT(file, has_file, "Name of the file, without its folder; null if it is not known."),
+    {"line", NULL, NULL, "Line of the file, from 1; null if it is not known.",
+     DIP_FACT(WHOLE, DipError, line), .least = 1, .most = INT_MAX, .known = has_line},
+    WARNING_TEXT(key, has_key,
+                 "The key, setting or part of the file that the warning is about, or null."),
+    WARNING_TEXT(message, NULL, "What was found, and what is done about it."),
+};
+const DipRecord dip_cost_warning_record =
+    DIP_RECORD("warning", "A warning that loading the scene gave.", warning_fields, DipError, NULL);
+
+DIP_DERIVE(derive_warning_count, DIP_MADE(int, dip_cost_report_of(at)->warning_count +
+                                                   dip_cost_report_of(at)->warnings_left_out))
+
 DIP_OF_ITEM(bool, has_times, dip_cost_report_of(at)->rounds > 0)
 DIP_OF_ITEM(bool, has_predictions, dip_cost_report_of(at)->predicted.count > 0)
 
@@ -114,6 +133,15 @@ static const DipField report_fields[] = {
     {"left_out", NULL, NULL, "Steps of settings that were left out, each with the reason.",
      DIP_LIST(.element = &left_out_element, DIP_ARRAY(DipCostReport, refused, refused_count),
               .most = DIP_COST_MAX_REFUSED)},
+    {"warnings", NULL, NULL,
+     "The warnings that loading the scene gave, in the order of loading, such as what Diptych does "
+     "not draw of it. Empty in files of versions that did not record them.",
+     DIP_LIST(.record = &dip_cost_warning_record, DIP_ARRAY(DipCostReport, warnings, warning_count),
+              .points = true, .most = DIP_COST_MAX_WARNINGS)},
+    HEADER_NUMBER("warnings_left_out", warnings_left_out, 0, DIP_COST_MOST_LEFT_OUT,
+                  "Number of further warnings, which the list leaves out."),
+    {"warning_count", NULL, NULL, "Number of all warnings that loading the scene gave.",
+     DIP_SHOWN(WHOLE, derive_warning_count)},
     {"rows", NULL, NULL, "The measured combinations, each on one camera path.",
      LIST(dip_cost_row_list)},
     {"visits", NULL, NULL, "Every timed frame, from which all times are computed.",

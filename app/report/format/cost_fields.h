@@ -80,6 +80,7 @@ extern const DipRecord dip_cost_metrics_record;              // DipMetrics
 extern const DipRecord dip_cost_prediction_of_report_record; // DipCostPrediction
 extern const DipRecord dip_cost_misses_record;               // DipCostMisses
 extern const DipRecord dip_cost_interaction_record;          // DipCostInteraction
+extern const DipRecord dip_cost_warning_record;              // DipError, a warning
 extern const DipRecord dip_cost_price_record;     // DipCostFit; item i is the fit's term i
 extern const DipRecord dip_cost_same_record;      // DipCostSame
 extern const DipRecord dip_cost_elsewhere_record; // DipCostElsewhere

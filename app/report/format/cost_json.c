@@ -222,7 +222,10 @@ static bool read_report(cJSON *root, size_t size_bytes, DipCostReport *report, c
     add_counters_of(cJSON_GetObjectItemCaseSensitive(
         cJSON_GetObjectItemCaseSensitive(root, "smaller"), "combinations"));
     add_searched(cJSON_GetObjectItemCaseSensitive(root, "predicted"));
-    add_missing(root, "several_builds", add_false); // Files of older versions lack it.
+    // Files of older versions lack these.
+    add_missing(root, "several_builds", add_false);
+    add_missing(root, "warnings", cJSON_AddArrayToObject);
+    add_missing(root, "warnings_left_out", add_zero);
     if (!times_fit(root, size_bytes)) {
         return dip_error_set(err, DIP_ERROR_FORMAT, file, 0, "rows",
                              "are fewer than their number of rounds and frames says");

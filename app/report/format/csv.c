@@ -14,7 +14,7 @@ static const char columns[] =
     "kind; title; path; settings; ratio; row.ms=ms; row.p95_ms=p95_ms; row.worst_ms=worst_ms; "
     "report.scene=scene; report.width=width; report.height=height; report.processor=processor; "
     "report.threads=threads; report.isa=isa; report.version=version; report.date=date; "
-    "report.machine.verdict=verdict; " REGIONS
+    "report.machine.verdict=verdict; report.warning_count=warnings; " REGIONS
     "row.over_time.static_rms_lin=static_rms_lin; row.over_time.flicker_rms_lin=flicker_rms_lin; "
     "row.over_time.step_rms_lin=step_rms_lin; "
     "row.over_time.two_frame_mean_rms_lin=two_frame_mean_rms_lin; "

@@ -300,6 +300,11 @@ static void write_facts(DipForm *form, const DipCostReport *report) {
                       "The parts of this report were measured by different builds of Diptych, so "
                       "their errors may be those of different pictures.");
     }
+    const int warnings = report->warning_count + report->warnings_left_out;
+    if (warnings > 0) {
+        dip_form_fact(form, "Warnings", "%d when the scene was loaded%s", warnings,
+                      form->is_page ? "" : "; cost.json and cost.html list them");
+    }
     dip_form_fact(form, "Baseline", "%s", baseline);
     if (report->rounds > 0) {
         dip_form_fact(form, "Times",

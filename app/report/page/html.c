@@ -42,6 +42,23 @@ static void write_scripts(const DipCostReport *report, FILE *out) {
 
 // --- tables that only pages have -----------------------------------------------------------------
 
+static void write_warnings(DipForm *form, const DipCostReport *report) {
+    if (report->warning_count == 0) {
+        return;
+    }
+    dip_form_heading(form, "warnings", "Warnings about the scene");
+    DIP_FORM_TABLE(
+        form, .id = "scene-warnings",
+        .caption = "Loading the scene gave these warnings. What Diptych does not draw of "
+                   "the scene is missing from the truths, too, so no error shows it.",
+        .record = &dip_cost_warning_record, .columns = "file; line; key; message",
+        .context = (void *)report, .items = report->warnings, .count = report->warning_count);
+    if (report->warnings_left_out > 0) {
+        dip_form_paragraph(form, "note", "%d more warning%s left out.", report->warnings_left_out,
+                           report->warnings_left_out == 1 ? " is" : "s are");
+    }
+}
+
 static bool has_tail(const DipFieldAt *at) {
     const int row = ((const DipCostLine *)at->item)->row;
     return dip_cost_row_tail(at->context, row).viewpoints > 0;
@@ -157,6 +174,7 @@ static void write_contents(const DipCostReport *report, FILE *out) {
         {report->choice.candidates.count > 1, "front", "Time against error"},
         {report->predicted.count > 0, "predicted", "Predicted combinations"},
         {true, "measured", "What was measured"},
+        {report->warning_count > 0, "warnings", "Warnings about the scene"},
         {has_candidates && report->rounds > 0, "along", "Time and error along the path"},
         {report->sweep_count > 0, "settings", "Each setting"},
         {report->sweep_count > 0, "parts", "Where the errors are"},
@@ -233,6 +251,7 @@ static bool write_page(const void *page, FILE *out) {
     dip_section_answer(&form, report);
     const bool has_front = dip_html_front(&form, report, pictures);
     dip_section_measured(&form, report);
+    write_warnings(&form, report);
     const bool has_path = dip_html_path(&form, report);
     dip_section_interactions(&form, report);
     dip_html_sweeps(&form, report, pictures);

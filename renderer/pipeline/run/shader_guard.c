@@ -142,11 +142,43 @@ static void sample_alpha_slope(DipFragmentBatch *batch, const DipSampler *sample
 
 // --- targets and depths --------------------------------------------------------------------------
 
-// Returns whether two targets share bytes.
+static int64_t row_bytes(const DipTarget *target) {
+    return (int64_t)target->width * 4;
+}
+
+// Returns whether two targets with the same rows share bytes, if b begins `bytes` after a. Targets
+// of one larger picture may lie side by side, so that their rows take turns.
+static bool share_rows(const DipTarget *a, const DipTarget *b, int64_t bytes) {
+    const int64_t stride = (int64_t)a->stride_bytes;
+    const int64_t rows = bytes / stride;
+    const int64_t column = bytes % stride;
+    return rows < a->height &&
+           (column < row_bytes(a) || (column + row_bytes(b) > stride && rows + 1 < a->height));
+}
+
+// Returns whether two targets share bytes. If their rows are of different lengths, bytes between
+// the rows count, too.
 static bool overlap(const DipTarget *a, const DipTarget *b) {
-    const uintptr_t at[2] = {(uintptr_t)a->rgba8, (uintptr_t)b->rgba8};
-    return a->rgba8 && b->rgba8 && at[0] < at[1] + b->stride_bytes * (size_t)b->height &&
-           at[1] < at[0] + a->stride_bytes * (size_t)a->height;
+    if (!a->rgba8 || !b->rgba8 || a->height < 1 || b->height < 1) {
+        return false;
+    }
+    const DipTarget *first = (uintptr_t)a->rgba8 <= (uintptr_t)b->rgba8 ? a : b;
+    const DipTarget *second = first == a ? b : a;
+    const int64_t bytes = (int64_t)((uintptr_t)second->rgba8 - (uintptr_t)first->rgba8);
+    return first->stride_bytes == second->stride_bytes
+               ? share_rows(first, second, bytes)
+               : bytes < (int64_t)first->stride_bytes * first->height;
+}
+
+// Returns whether a pass writes a target's bytes while it is drawn.
+static bool writes(const DipPass *pass, const DipTarget *target) {
+    return !pass->attachments.keep_target && pass->target.format != DIP_FORMAT_CALLER &&
+           overlap(target, &pass->target);
+}
+
+// Names guard->at_once[index] in a message.
+static const char *drawing_pass(const DipShaderGuard *guard, int index) {
+    return guard->at_once[index] == guard->pass ? "the pass" : "a pass that is drawn at once";
 }
 
 static bool check_target(DipShaderGuard *guard, const DipTarget *target) {
@@ -162,13 +194,15 @@ static bool check_target(DipShaderGuard *guard, const DipTarget *target) {
                       "a shader reads a target of %dx%d pixels and rows of %zu bytes",
                       target->width, target->height, target->stride_bytes);
     }
-    const DipPass *pass = guard->pass;
-    return pass->attachments.keep_target || !overlap(target, &pass->target) ||
-                   pass->target.format == DIP_FORMAT_CALLER
-               ? true
-               : refuse(guard, DIP_ERROR_CONFLICT, "sample_target",
-                        "a shader reads the target that the pass draws, accepted the target of an "
-                        "earlier pass");
+    for (int i = 0; i < guard->at_once_count; i++) {
+        if (writes(guard->at_once[i], target)) {
+            return refuse(guard, DIP_ERROR_CONFLICT, "sample_target",
+                          "a shader reads the target that %s draws, accepted the target of an "
+                          "earlier pass",
+                          drawing_pass(guard, i));
+        }
+    }
+    return true;
 }
 
 static void sample_target(DipFragmentBatch *batch, const DipTarget *target, const float *u,
@@ -185,10 +219,15 @@ static bool check_shadow(DipShaderGuard *guard, const DipShadowMap *map) {
         return refuse(guard, DIP_ERROR_MISSING, "sample_shadow",
                       "a shader reads a shadow map that has no depths");
     }
-    return map->depth != guard->pass->attachments.depth ||
-           refuse(guard, DIP_ERROR_CONFLICT, "sample_shadow",
-                  "a shader reads the depths that the pass draws, accepted those of an earlier "
-                  "pass");
+    for (int i = 0; i < guard->at_once_count; i++) {
+        if (map->depth == guard->at_once[i]->attachments.depth) {
+            return refuse(guard, DIP_ERROR_CONFLICT, "sample_shadow",
+                          "a shader reads the depths that %s draws, accepted those of an earlier "
+                          "pass",
+                          drawing_pass(guard, i));
+        }
+    }
+    return true;
 }
 
 static void sample_shadow(DipFragmentBatch *batch, const DipShadowMap *map, const float *u,

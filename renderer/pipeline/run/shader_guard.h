@@ -10,6 +10,8 @@
 typedef struct DipShaderGuard {
     const DipKernels *kernels;
     const DipPass *pass;
+    const DipPass *const *at_once; // the passes that are drawn at once; set by the caller
+    int at_once_count;
     const float *srgb_light;
     const DipDraw *draw;
     uint32_t draw_index;

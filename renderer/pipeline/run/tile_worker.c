@@ -274,8 +274,12 @@ void dip_tile_worker_begin_pass(DipTileWorker *worker) {
     const DipTilePass *pass = worker->pass;
     worker->shading.share.offers = false;
     worker->shading.share.from = NULL;
-    dip_shader_guard_begin(&worker->guard, pass->kernels, pass->pass, pass->srgb_light);
-    dip_shader_guard_begin(&worker->clip_guard, pass->kernels, pass->pass, pass->srgb_light);
+    DipShaderGuard *const guards[2] = {&worker->guard, &worker->clip_guard};
+    for (int i = 0; i < 2; i++) {
+        dip_shader_guard_begin(guards[i], pass->kernels, pass->pass, pass->srgb_light);
+        guards[i]->at_once = pass->at_once;
+        guards[i]->at_once_count = pass->at_once_count;
+    }
 }
 
 // Hands the finished tile to the caller.

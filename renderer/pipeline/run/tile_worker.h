@@ -42,6 +42,8 @@ typedef struct DipTileWork {
 typedef struct DipTilePass {
     const DipKernels *kernels;
     const DipPass *pass;
+    const DipPass *const *at_once; // all passes that are drawn at once, this one among them
+    int at_once_count;
     const DipSamplePattern *pattern;
     // This pipeline's own geometry, or the geometry of another pipeline if both are drawn together
     // and share it.

@@ -97,6 +97,18 @@ static void fill_row(DipCostReport *report, int index) {
     }
 }
 
+static void add_warnings(DipCostReport *report) {
+    static const DipError warnings[] = {
+        {.file = "folder/made.gltf", .key = "extensionsUsed", .message = "ACME_smell is not drawn"},
+        {.file = "made.ini", .line = 12, .key = "NEAR", .message = "this key was given before"},
+        {.message = "a warning without a place"},
+    };
+    if (!dip_cost_report_add_warnings(report, warnings, 3, NULL)) {
+        abort();
+    }
+    report->warnings_left_out = 2;
+}
+
 void dip_made_report(DipCostReport *report, int rounds) {
     *report = (DipCostReport){
         .scene = "made up",
@@ -169,6 +181,7 @@ void dip_made_report(DipCostReport *report, int rounds) {
         (DipCostPrediction){.quality = report->rows[2].quality, .ms = 3.5, .flip = 0.1, .row = 2};
     report->predicted.list[1] = (DipCostPrediction){
         .quality = report->rows[3].quality, .ms = 4.5, .p95_ms = 5.0, .flip = 0.2, .row = -1};
+    add_warnings(report);
     for (int path = 0; path < report->path_count; path++) {
         report->has_floor[path * report->options.places] = true;
         fill_sums(&report->floors[path * report->options.places], 50 + path);

@@ -7,7 +7,7 @@
 // Makes a report with two paths, three viewpoints and one sweep of AA. Its rows on path 0 are
 // aa=none, a second aa=none for the A/A test, aa=2 and aa=4; the only row of path 1 is aa=none. All
 // errors differ. In each of `rounds` rounds (none, or at least 2), rows with aa=none take 1 ms,
-// aa=2 takes 3 ms and aa=4 takes 4 ms. The report lists two kept frames, whose files are not there.
+// aa=2 takes 3 ms and aa=4 takes 4 ms. The report lists three warnings and leaves out two.
 void dip_made_report(DipCostReport *report, int rounds);
 
 // Gives a row the same time in all frames, beside a baseline of 1 ms.

@@ -113,8 +113,11 @@ static bool write_record(void *context, DipError *err) {
 #undef SET_WHY
     }
     const DipStartTimes times = {0};
+    DipError warning = {.message = "not drawn"};
+    const DipErrorList warnings = {.items = &warning, .count = 1};
     DipRecord *record = dip_record_create(err);
     const bool written = record && dip_record_add(record, &drawn, err) &&
+                         dip_record_set_warnings(record, &warnings, 0, err) &&
                          dip_record_set_start(record, &times, 1000, err) &&
                          dip_record_write(record, w.file, err);
     dip_record_destroy(&record);

@@ -327,7 +327,19 @@ static void check_values(const void *a, const void *b, size_t size) {
     }
 }
 
+static void check_same_warnings(const DipCostReport *a, const DipCostReport *b) {
+    assert_int_equal(a->warning_count, b->warning_count);
+    assert_int_equal(a->warnings_left_out, b->warnings_left_out);
+    for (int i = 0; i < a->warning_count; i++) {
+        assert_string_equal(a->warnings[i].file, b->warnings[i].file);
+        assert_int_equal(a->warnings[i].line, b->warnings[i].line);
+        assert_string_equal(a->warnings[i].key, b->warnings[i].key);
+        assert_string_equal(a->warnings[i].message, b->warnings[i].message);
+    }
+}
+
 static void check_same(const DipCostReport *a, const DipCostReport *b) {
+    check_same_warnings(a, b);
     assert_string_equal(a->scene, b->scene);
     assert_string_equal(a->scene_hash, b->scene_hash);
     assert_string_equal(a->date, b->date);
@@ -543,8 +555,8 @@ static void csv_and_page_are_complete(void **state) {
     assert_true(dip_cost_write_csv(&report, file, &err));
     char *text = read_whole(&size);
     assert_non_null(strstr(text, ",\"a \"\"b\"\", c\",64,48,"));
-    assert_non_null(strstr(text, ",version,date,verdict,"));
-    assert_non_null(strstr(text, ",\"0\",\"2026-01-31T23:59:58Z\",\"green\","));
+    assert_non_null(strstr(text, ",version,date,verdict,warnings,"));
+    assert_non_null(strstr(text, ",\"0\",\"2026-01-31T23:59:58Z\",\"green\",5,"));
     int lines = 0, commas = 0, first = 0;
     bool quoted = false;
     for (const char *c = text; *c; c++) {
@@ -575,6 +587,69 @@ static void csv_and_page_are_complete(void **state) {
     assert_null(strstr(text, "@import"));
     assert_non_null(strstr(text, "2026-01-31T23:59:58Z"));
     assert_null(strstr(text, "nan"));
+    free(text);
+    remove(file);
+    dip_cost_report_free(&report);
+}
+
+// Parts of a report have the same warnings, perhaps of files in other folders. Each is kept once.
+// No number of warnings is too great: those that are not kept are counted.
+static void warnings_are_added_once(void **state) {
+    (void)state;
+    static DipError many[DIP_COST_MAX_WARNINGS + 30];
+    const int most = DIP_COST_MAX_WARNINGS, count = (int)(sizeof many / sizeof *many);
+    DipError few[] = {{.file = "/a/b/m.gltf", .key = "k", .message = "one"},
+                      {.file = "m.gltf", .line = 1, .key = "k", .message = "one"},
+                      {.file = "m.gltf", .key = "l", .message = "one"},
+                      {.file = "m.gltf", .key = "k", .message = "two"},
+                      {.file = "n.gltf", .key = "k", .message = "one"}};
+    DipCostReport report = {.rounds = 0};
+    assert_true(dip_cost_report_add_warnings(&report, few, 0, NULL));
+    assert_true(dip_cost_report_add_warnings(&report, few, 5, NULL));
+    assert_int_equal(report.warning_count, 5);
+    assert_string_equal(report.warnings[0].file, "m.gltf");
+    strcpy(few[0].file, "/elsewhere/m.gltf");
+    few[4].line = 9;
+    assert_true(dip_cost_report_add_warnings(&report, few, 5, NULL));
+    assert_int_equal(report.warning_count, 6);
+    assert_int_equal(report.warnings[5].line, 9);
+    for (int i = 0; i < count; i++) {
+        snprintf(many[i].message, sizeof many[i].message, "%d", i);
+    }
+    assert_true(dip_cost_report_add_warnings(&report, many, count, NULL));
+    assert_int_equal(report.warning_count, most);
+    assert_int_equal(report.warnings_left_out, 6 + count - most);
+    assert_string_equal(report.warnings[6].message, "0");
+    dip_cost_report_free(&report);
+}
+
+// A page lists the warnings, and a terminal shows their number. Both escape them.
+static void warnings_are_shown_escaped(void **state) {
+    (void)state;
+    DipCostReport report;
+    size_t size;
+    dip_made_report(&report, 2);
+    strcpy(report.warnings[0].message, "</script><b>\x1b[31m'\"");
+    assert_true(dip_cost_write_html(&report, NULL, file, NULL));
+    char *text = read_whole(&size);
+    assert_non_null(strstr(text, "<a href=\"#warnings\">"));
+    assert_non_null(strstr(text, "<th scope=\"row\">made.gltf</th>"));
+    assert_non_null(strstr(text, ">extensionsUsed</td><td class=\"l\">"
+                                 "&lt;/script&gt;&lt;b&gt;?[31m&#39;&quot;</td>"));
+    assert_non_null(strstr(text, "2 more warnings are left out."));
+    free(text);
+    FILE *out = fopen(file, "w");
+    assert_non_null(out);
+    dip_cost_print(&report, out);
+    fclose(out);
+    text = read_whole(&size);
+    assert_non_null(strstr(text, "Warnings"));
+    assert_non_null(strstr(text, "5 when the scene was loaded; cost.json and cost.html list them"));
+    free(text);
+    report.warning_count = report.warnings_left_out = 0;
+    assert_true(dip_cost_write_html(&report, NULL, file, NULL));
+    text = read_whole(&size);
+    assert_null(strstr(text, "arnings"));
     free(text);
     remove(file);
     dip_cost_report_free(&report);
@@ -700,6 +775,8 @@ int main(void) {
         cmocka_unit_test(json_without_a_date_is_read),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(csv_and_page_are_complete),
+        cmocka_unit_test(warnings_are_added_once),
+        cmocka_unit_test(warnings_are_shown_escaped),
         cmocka_unit_test(settings_without_effect_are_not_chosen),
         cmocka_unit_test(doubtful_times_have_a_mark),
     };

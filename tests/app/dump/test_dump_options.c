@@ -193,6 +193,7 @@ static void printed_and_written_records_are_equal(void **state) {
     assert_non_null(record);
     assert_non_null(out);
     assert_true(mkstemp(file) >= 0);
+    assert_true(dip_record_set_warnings(record, &(DipErrorList){0}, 0, &err));
     assert_true(dip_record_set_start(record, &times, 123, &err));
     assert_true(dip_record_write(record, file, &err));
     dip_record_print(record, out);
@@ -208,6 +209,44 @@ static void printed_and_written_records_are_equal(void **state) {
     dip_record_destroy(&record);
 }
 
+// Returns the record of no frames with these warnings. The caller frees it.
+static char *record_with(const DipErrorList *warnings, int left_out) {
+    const DipStartTimes times = {.total_ms = 1.5};
+    char *text = NULL;
+    size_t size_bytes = 0;
+    DipRecord *record = dip_record_create(NULL);
+    FILE *out = open_memstream(&text, &size_bytes);
+    assert_true(record && out);
+    assert_true(dip_record_set_warnings(record, warnings, left_out, NULL));
+    assert_true(dip_record_set_start(record, &times, 123, NULL));
+    dip_record_print(record, out);
+    fclose(out);
+    dip_record_destroy(&record);
+    return text;
+}
+
+// What is not known of a warning is null. Texts from files are escaped.
+static void warnings_stand_in_the_record(void **state) {
+    (void)state;
+    DipErrorList warnings = {0};
+    DipError warning = {
+        .line = 7, .file = "a\"b.ini", .key = "K\\", .message = "</script>\x1b\xff"};
+    dip_error_list_add(&warnings, &warning);
+    dip_error_list_add(&warnings, &(DipError){.message = "plain"});
+    char *text = record_with(&warnings, 5);
+    assert_non_null(strstr(text, "{\"frames\": [],\n\"warnings\": [\n"
+                                 "{\"file\": \"a\\\"b.ini\", \"line\": 7, \"key\": \"K\\\\\", "
+                                 "\"message\": \"\\u003c/script\\u003e??\"},\n"
+                                 "{\"file\": null, \"line\": null, \"key\": null, "
+                                 "\"message\": \"plain\"}],\n"
+                                 "\"warnings_left_out\": 5,\n\"load_ms\": {"));
+    free(text);
+    text = record_with(&(DipErrorList){0}, 0);
+    assert_non_null(strstr(text, "\"warnings\": [],\n\"warnings_left_out\": 0,\n"));
+    free(text);
+    dip_error_list_free(&warnings);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_the_first_frame_at_30_per_second),
@@ -220,6 +259,7 @@ int main(void) {
         cmocka_unit_test(times_of_frames_are_exact),
         cmocka_unit_test(category_excludes_another_path),
         cmocka_unit_test(printed_and_written_records_are_equal),
+        cmocka_unit_test(warnings_stand_in_the_record),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,8 @@
 import json
 
 TOPICS = ["times", "errors", "settings", "picks", "notices", "polls", "prices"]
-PARTS = ["state", "settings", "times", "errors", "paths", "animations", "scenes", "steps", "prices"]
+PARTS = ["state", "settings", "times", "errors", "paths", "animations", "scenes", "steps", "prices",
+         "warnings"]
 
 # Requests without their id; each breaks one rule.
 BAD = [

@@ -332,6 +332,22 @@ static void lists_name_what_is_accepted(void **state) {
     assert_null(strstr(reply, "\"state\""));
 }
 
+static void warnings_of_loading_are_told(void **state) {
+    (void)state;
+    static const char request[] = "{\"request\":\"get\",\"what\":\"warnings\"}";
+    DipError warning = {.file = "m.gltf", .key = "k", .message = "a \"b\"\x1b\xff"};
+    assert_non_null(strstr(ask(request), "\"warnings\":[],\"warnings_left_out\":0"));
+    dip_error_list_add(&session.warnings, &warning);
+    dip_error_list_add(&session.warnings, &(DipError){.line = 3, .message = "c"});
+    session.warnings_left_out = 4;
+    assert_non_null(strstr(ask(request),
+                           "\"warnings\":[{\"file\":\"m.gltf\",\"line\":null,\"key\":\"k\","
+                           "\"message\":\"a \\\"b\\\"??\"},{\"file\":null,\"line\":3,\"key\":null,"
+                           "\"message\":\"c\"}],\"warnings_left_out\":4"));
+    assert_null(strstr(ask("{\"request\":\"get\"}"), "warnings"));
+    dip_error_list_free(&session.warnings);
+}
+
 static void a_scene_without_animations_plays_none(void **state) {
     (void)state;
     assert_non_null(
@@ -635,6 +651,7 @@ int main(int argc, char **argv) {
         CONTROL_TEST(picks_tell_the_colours_that_show),
         CONTROL_TEST(screenshots_are_written_to_the_named_file),
         CONTROL_TEST(lists_name_what_is_accepted),
+        CONTROL_TEST(warnings_of_loading_are_told),
         CONTROL_TEST(a_scene_without_animations_plays_none),
         CONTROL_TEST(quit_ends_the_preview_with_a_reply),
         CONTROL_TEST(subscribers_hear_of_every_change),

@@ -73,6 +73,7 @@ static void stored_reports_are_written_again_to_the_byte(void **state) {
         assert_int_equal(report.rounds > 0, i < 2);
         assert_int_equal(report.log_count > 0, i < 2); // Made of the pairs of times that they have.
         assert_int_equal(report.predicted.count > 0, i == 1);
+        assert_int_equal(report.warning_count + report.warnings_left_out, 0); // It has no list.
         check_round_trip(&report);
         dip_cost_report_free(&report);
     }
@@ -134,6 +135,12 @@ static void what_is_no_fact_is_refused_by_its_name(void **state) {
         {"\"name\":\"AA\"", "\"name\":\"<b>\"", "paths[1]"},
         {"\"setting\":\"aa\"", "\"setting\":\"zz\"", "sweeps[0].setting"},
         {"\"place\":2", "\"place\":3", "rows[0].places[1]"},
+        {"\"line\":12", "\"line\":0", "warnings[1].line"},
+        {"\"line\":12", "\"line\":\"12\"", "warnings[1].line"},
+        {"\"key\":\"NEAR\",", "", "warnings[1].key"},
+        {"\"message\":\"ACME_smell is not drawn\"", "\"message\":null", "warnings[0].message"},
+        {"\"warnings_left_out\":2", "\"warnings_left_out\":-1", "warnings_left_out"},
+        {"\"warnings\":[", "\"warnings\":{\"a\":[]},\"b\":[", "warnings"},
         {"\"settled\":true", "\"settled\":1", "machine.settled"},
         {"\"ms\":0.5,\"ms_low\":0.4", "\"ms\":0.5,\"ms_low\":0.6", "smaller.combinations[0].ms"},
         {"\"ms\":0.5,\"ms_low\":0.4,\"ms_high\":0.6", "\"ms\":0.5,\"ms_low\":0.5,\"ms_high\":0.5",

@@ -373,11 +373,93 @@ static void lights_and_shading_reach_the_scene(void **state) {
     remove(ini);
 }
 
+// Opens a session that may have warnings, but no errors.
+static void open_model(DipSession *session, const DipSessionOptions *options,
+                       DipErrorList *faults) {
+    const DipSessionDef def = {.options = options, .scene = true};
+    assert_true(dip_session_open(session, &def, faults));
+    assert_int_equal(faults->error_count, 0);
+}
+
+// The session's list is the caller's list of warnings, from the call on.
+static void warnings_of_loading_are_kept_in_order(void **state) {
+    (void)state;
+    const int64_t before = live_blocks();
+    char ini[64], losses[600];
+    snprintf(losses, sizeof losses, "%s/tests/assets/data/gltf/losses.gltf", source);
+    write_ini(ini, "NEAR", "NEAR: 0.1\nNEAR: 0.2\nNEAR: 0.3");
+    DipSessionOptions options = small_options();
+    options.config = ini;
+    options.models[0] = losses;
+    DipError earlier = {.severity = DIP_SEVERITY_WARNING, .message = "of another session"};
+    DipErrorList faults = {0};
+    DipSession session;
+    dip_error_list_add(&faults, &earlier);
+    open_model(&session, &options, &faults);
+    assert_int_equal(session.warnings.count, 2 + 8); // Of the ini and of the model.
+    assert_int_equal(session.warnings_left_out, 0);
+    assert_int_equal(faults.count, 1 + session.warnings.count);
+    assert_memory_equal(session.warnings.items, faults.items + 1,
+                        session.warnings.count * sizeof *faults.items);
+    assert_string_equal(session.warnings.items[0].key, "NEAR");
+    assert_true(session.warnings.items[0].line > 0);
+    assert_non_null(strstr(session.warnings.items[2].file, "losses.gltf"));
+    dip_error_list_free(&faults);
+    dip_session_close(&session);
+    assert_int_equal(live_blocks(), before);
+    options.models[0] = model;
+    open_model(&session, &options, &faults);
+    assert_int_equal(session.warnings.count, 2); // None of the session before.
+    dip_error_list_free(&faults);
+    dip_session_close(&session);
+    remove(ini);
+}
+
+// Writes an OBJ file whose materials name pictures that are missing, and a file of its materials.
+static void write_without_pictures(const char *obj, const char *mtl, int materials) {
+    FILE *out = fopen(obj, "w");
+    FILE *list = fopen(mtl, "w");
+    assert_true(out && list);
+    fprintf(out, "mtllib %s\no made\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n", strrchr(mtl, '/') + 1);
+    for (int i = 0; i < materials; i++) {
+        fprintf(out, "usemtl m%d\nf 1/1 2/1 3/1\n", i);
+        fprintf(list, "newmtl m%d\nmap_Kd none%d.png\n", i, i);
+    }
+    fclose(out);
+    fclose(list);
+}
+
+// A model may give any number of warnings. Those that are not kept are counted.
+static void warnings_beyond_the_limit_are_counted(void **state) {
+    (void)state;
+    static const int materials[] = {DIP_SESSION_MAX_WARNINGS, DIP_SESSION_MAX_WARNINGS + 44};
+    for (int i = 0; i < 2; i++) {
+        char obj[64], mtl[64];
+        snprintf(obj, sizeof obj, "/tmp/test_session.%d.obj", (int)getpid());
+        snprintf(mtl, sizeof mtl, "/tmp/test_session.%d.mtl", (int)getpid());
+        write_without_pictures(obj, mtl, materials[i]);
+        DipSessionOptions options = small_options();
+        options.models[0] = obj;
+        DipErrorList faults = {0};
+        DipSession session;
+        open_model(&session, &options, &faults);
+        assert_int_equal(faults.count, materials[i]);
+        assert_int_equal(session.warnings.count, DIP_SESSION_MAX_WARNINGS);
+        assert_int_equal(session.warnings_left_out, materials[i] - DIP_SESSION_MAX_WARNINGS);
+        dip_error_list_free(&faults);
+        dip_session_close(&session);
+        remove(obj);
+        remove(mtl);
+    }
+}
+
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(session_loads_what_its_def_asks_for),
         cmocka_unit_test(lights_and_shading_reach_the_scene),
         cmocka_unit_test(model_can_be_loaded_later),
+        cmocka_unit_test(warnings_of_loading_are_kept_in_order),
+        cmocka_unit_test(warnings_beyond_the_limit_are_counted),
         cmocka_unit_test(session_draws_both_panes),
         cmocka_unit_test(panes_that_share_shading_take_turns),
         cmocka_unit_test(models_come_back_as_they_were),

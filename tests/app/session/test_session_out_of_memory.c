@@ -83,6 +83,7 @@ static void check_opening(const char *name, int short_count) {
 
 static char ini[512];
 static char model[512];
+static char model_with_warnings[512];
 
 static DipSessionOptions options_of(int model_count) {
     return (DipSessionOptions){.config = ini,
@@ -103,6 +104,13 @@ static void session_of_a_model_opens_whole_or_not_at_all(void **state) {
     check_opening("a session with a model", 30);
 }
 
+static void session_with_warnings_opens_whole_or_not_at_all(void **state) {
+    (void)state;
+    fixture.options = options_of(1);
+    fixture.options.models[0] = model_with_warnings;
+    check_opening("a session with warnings", 15);
+}
+
 static void session_of_the_courtyard_opens_whole_or_not_at_all(void **state) {
     (void)state;
     fixture.options = options_of(0);
@@ -120,9 +128,12 @@ int main(int argc, char **argv) {
     const char *source = argc > 1 ? argv[1] : ".";
     snprintf(ini, sizeof ini, "%s/config/courtyard.ini", source);
     snprintf(model, sizeof model, "%s/tests/assets/data/square.gltf", source);
+    snprintf(model_with_warnings, sizeof model_with_warnings,
+             "%s/tests/assets/data/gltf/losses.gltf", source);
     fixture.importer = (DipImporter){.program = "/proc/self/exe", .command = importer_word};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(session_of_a_model_opens_whole_or_not_at_all),
+        cmocka_unit_test(session_with_warnings_opens_whole_or_not_at_all),
         cmocka_unit_test(session_of_the_courtyard_opens_whole_or_not_at_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,18 +1,33 @@
 #!/usr/bin/env python3
 """Compares the hashes of Diptych's pictures of the models of make_models.py with a list.
 
-Usage: hashes.py DIPTYCH LIST [--write]
+Usage: hashes.py DIPTYCH LIST [--write | --all-ways]
 
 The list holds the pictures that beside.py has compared with those of three.js. They are drawn with
-the scalar kernels on one thread and with the best instruction set on three. --write writes the
-list; then run beside_models.sh, too. The exit code is 77 if numpy is missing.
+the scalar kernels on one thread, with the best instruction set on three, and with all effects forced
+on two; with --all-ways also with each instruction set that this machine has. --write writes the list;
+then run beside_models.sh, too. The exit code is 77 if numpy is missing.
 """
 import pathlib
+import subprocess
 import sys
 
 import ours
 
-WAYS = (("--isa", "scalar", "--threads", "1"), ("--isa", "auto", "--threads", "3"))
+WAYS = (("--isa", "scalar", "--threads", "1"), ("--isa", "auto", "--threads", "3"),
+        ("--force-all-effects", "--threads", "2"))
+SETS = ("sse2", "avx2", "avx512", "neon")
+
+
+def ways_of(diptych):
+    """WAYS, and each instruction set on two threads if the program can use it here."""
+    ways = list(WAYS)
+    for isa in SETS:
+        way = ("--isa", isa, "--threads", "2")
+        if subprocess.run([diptych, "dump", "--hash", "--size", "16x12", *way], check=False,
+                          capture_output=True).returncode == 0:
+            ways.append(way)
+    return ways
 
 
 def draw_all(diptych, way):
@@ -38,7 +53,7 @@ def main():
         return 0
     expected = file.read_text().splitlines()
     faults = 0
-    for way in WAYS:
+    for way in ways_of(diptych) if sys.argv[3:] == ["--all-ways"] else WAYS:
         lines = draw_all(diptych, way)
         differ = [f"drawn:  {line}" for line in lines if line not in expected]
         differ += [f"listed: {line}" for line in expected if line not in lines]

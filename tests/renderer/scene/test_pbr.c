@@ -30,8 +30,7 @@ typedef struct Stage {
     DipRenderer *renderer;
 } Stage;
 
-static Stage open_stage_with(DipIsa isa, int threads, bool plain, bool force_all,
-                             const char *settings) {
+static Stage open_stage_with(DipIsa isa, int threads, bool plain, const char *settings) {
     DipError err = {0};
     Stage stage = {.pool = dip_pool_create(threads, NULL),
                    .scene = dip_scene_create(&scene.def, NULL, &err)};
@@ -41,7 +40,6 @@ static Stage open_stage_with(DipIsa isa, int threads, bool plain, bool force_all
     def.width = WIDTH;
     def.height = HEIGHT;
     def.plain_surfaces = plain;
-    def.force_all_effects = force_all;
     assert_true(dip_quality_parse(settings, &def.quality, NULL));
     stage.renderer = dip_renderer_create(&def, NULL);
     if (!stage.scene) {
@@ -52,7 +50,7 @@ static Stage open_stage_with(DipIsa isa, int threads, bool plain, bool force_all
 }
 
 static Stage open_stage(const char *settings) {
-    return open_stage_with(dip_isa_best(), 1, false, false, settings);
+    return open_stage_with(dip_isa_best(), 1, false, settings);
 }
 
 static void close_stage(Stage *stage) {
@@ -445,7 +443,7 @@ static void every_machine_and_thread_count_draws_the_same_bits(void **state) {
     char expected[33] = "";
     for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
         for (int threads = 1; threads <= 2 && dip_isa_available((DipIsa)isa); threads++) {
-            Stage stage = open_stage_with((DipIsa)isa, threads, false, false, "aa=4");
+            Stage stage = open_stage_with((DipIsa)isa, threads, false, "aa=4");
             const DipFrame frame = draw(&stage);
             char hash[33];
             dip_frame_hash(&frame, hash);
@@ -500,7 +498,7 @@ static void absent_parts_do_not_run(void **state) {
 static void plain_surfaces_leave_the_reflection_out(void **state) {
     (void)state;
     author_make_balls(&scene);
-    Stage plain = open_stage_with(dip_isa_best(), 1, true, false, "aa=none");
+    Stage plain = open_stage_with(dip_isa_best(), 1, true, "aa=none");
     char hashes[2][33];
     DipFrame frame = draw(&plain);
     assert_false(frame.effects.pbr.run);
