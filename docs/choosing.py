@@ -152,8 +152,8 @@ def bench_job(out, options, *arguments):
     return Job(out, make)
 
 
-def bench_rows(out):
-    """The milliseconds of the base, and the ratio and its interval for each other set of --sets."""
+def bench_rows(out, sets):
+    """The milliseconds of the base, and the ratio and its interval for each of the other sets."""
     base_ms, rows = None, []
     for line in out.read_text().splitlines():
         found = re.match(r" *\d+  \S+ +median .* ([\d.]+) +([\d.]+) +(base|[\d.]+ to [\d.]+)$", line)
@@ -162,6 +162,8 @@ def bench_rows(out):
         elif found:
             rows.append((float(found[2]),
                          " to ".join(short(float(end), 2) for end in found[3].split(" to "))))
+    if len(rows) != len(sets):
+        sys.exit(f"choosing.py: {out} has times of {len(rows)} sets instead of {len(sets)}; delete it")
     return base_ms, rows
 
 
@@ -238,10 +240,10 @@ def study_time_jobs(folder, options):
 
 
 def show_study_times(outs):
-    base_ms, measured = bench_rows(outs["study-times"])
+    then = list(STUDY.items())[1:]
+    base_ms, measured = bench_rows(outs["study-times"], then)
     rows, near = [], 0
-    for (settings, (_, draw, filtered)), (now, interval) in zip(list(STUDY.items())[1:], measured,
-                                                                strict=True):
+    for (settings, (_, draw, filtered)), (now, interval) in zip(then, measured):
         difference = now / (draw + filtered) - 1
         near += difference <= TIME_MISS
         rows.append([named(settings), short(draw, 2), short(filtered, 2) if filtered else "",
@@ -261,10 +263,10 @@ def time_jobs(folder, options):
 
 
 def show_times(outs):
-    base_ms, measured = bench_rows(outs["times"])
+    base_ms, measured = bench_rows(outs["times"], TIME_SETS)
     table(["settings", "time", "95 % interval"],
           [[named(settings), short(ratio, 2), interval]
-           for settings, (ratio, interval) in zip(TIME_SETS, measured, strict=True)])
+           for settings, (ratio, interval) in zip(TIME_SETS, measured)])
     print(f"The frame of the defaults takes {base_ms:.1f} ms.\n")
 
 
