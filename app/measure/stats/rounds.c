@@ -4,6 +4,7 @@
 
 #include "app/measure/stats/random.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stdlib.h>
 
@@ -94,6 +95,7 @@ static Variance variance_of(const DipTimesFit *fit, int subject, DipTimesValue v
 }
 
 DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other) {
+    DIP_FP_MODE_SCOPE();
     const DipTimesSubject *a = &fit->subjects[subject], *b = &fit->subjects[other];
     const DipTimesBase *base = &fit->bases[a->base];
     DIP_ASSERT(a->base == b->base);
@@ -142,6 +144,7 @@ static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
 }
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
+    DIP_FP_MODE_SCOPE();
     const DipTimesSubject *s = &fit->subjects[subject];
     const DipTimesBase *base = &fit->bases[s->base];
     return (DipAlong){
