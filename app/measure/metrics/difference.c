@@ -90,20 +90,24 @@ static double mean(double sum, double count) {
 DipMetrics dip_metrics_of(const DipMetricSums *sums, int region) {
     DIP_FP_MODE_SCOPE();
     const DipMetricRegionSums *r = &sums->regions[region];
-    return (DipMetrics){
+    DipMetrics metrics = {
         .rmse_lin = sqrt(mean(r->squared_lin, r->pixels)),
         .psnr_db = dip_psnr_db(mean(r->squared_codes, r->pixels)),
         .ssim = r->ssim_pixels > 0.0 ? r->ssim / r->ssim_pixels : 1.0,
         .flip = mean(r->flip, r->pixels),
     };
+    DIP_FP_PIN_STRUCT(metrics);
+    return metrics;
 }
 
 DipFlickerMetrics dip_flicker_metrics_of(const DipMetricSums *sums) {
     DIP_FP_MODE_SCOPE();
-    return (DipFlickerMetrics){
+    DipFlickerMetrics metrics = {
         .steady = sqrt(mean(sums->squared_static, sums->bursts)),
         .flicker = sqrt(mean(sums->squared_flicker, sums->bursts)),
         .step = sqrt(mean(sums->squared_step, sums->bursts)),
         .two_mean = sqrt(mean(sums->squared_two_mean, sums->bursts)),
     };
+    DIP_FP_PIN_STRUCT(metrics);
+    return metrics;
 }

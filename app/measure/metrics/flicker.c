@@ -71,5 +71,6 @@ DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {
         result.squared_step = flicker->step_squares / (values * (frames - 1.0));
         result.squared_two_mean = flicker->pair_squares / (values * (frames - 1.0));
     }
+    DIP_FP_PIN_STRUCT(result);
     return result;
 }

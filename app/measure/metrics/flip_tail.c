@@ -103,5 +103,6 @@ DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter) {
     tail.p50 = percentile(meter, total, 0.50);
     tail.p95 = percentile(meter, total, 0.95);
     tail.p99 = percentile(meter, total, 0.99);
+    DIP_FP_PIN_STRUCT(tail);
     return tail;
 }

@@ -76,14 +76,16 @@ DipEstimate dip_estimate_make(double value, double log_error, double degrees) {
         estimate.low = NAN;
         estimate.high = NAN;
     }
+    DIP_FP_PIN_STRUCT(estimate);
     return estimate;
 }
 
 DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error) {
     DIP_FP_MODE_SCOPE();
     DIP_FP_PIN(log_error);
-    return dip_estimate_make(estimate->value, hypot(estimate->log_error, log_error),
-                             estimate->degrees);
+    double error = hypot(estimate->log_error, log_error);
+    DIP_FP_PIN(error);
+    return dip_estimate_make(estimate->value, error, estimate->degrees);
 }
 
 double dip_estimate_chance_below(const DipEstimate *estimate, double limit, double common_error) {

@@ -410,5 +410,6 @@ DipDriverMachine dip_driver_machine(const DipDriver *d, int threads) {
     if (room_ms > 0.0) {
         machine.wait = (d->has_wait ? d->wait_ms : room_ms - d->cpu_ms) / room_ms;
     }
+    DIP_FP_PIN_STRUCT(machine);
     return machine;
 }
