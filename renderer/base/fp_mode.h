@@ -8,7 +8,7 @@
 // Compilers do not know that arithmetic depends on the mode, so they may move it across the change
 // of mode. The functions below keep them from moving loads and stores. A public function whose
 // floating-point parameters or results are values, not memory, must also pin these values with
-// DIP_FP_PIN after the scope begins and before it ends.
+// DIP_FP_PIN or DIP_FP_PIN_STRUCT after the scope begins and before it ends.
 #ifndef DIP_RENDERER_BASE_FP_MODE_H
 #define DIP_RENDERER_BASE_FP_MODE_H
 
@@ -96,5 +96,8 @@ static inline void dip_fp_mode_leave(const DipFpMode *mode) {
 #else
 #define DIP_FP_PIN(variable) __asm__ volatile("" : "+m"(variable) : : "memory")
 #endif
+
+// Does the same for a structure, which a function returns as a value.
+#define DIP_FP_PIN_STRUCT(variable) __asm__ volatile("" : "+m"(variable) : : "memory")
 
 #endif

@@ -143,9 +143,15 @@ typedef void DipFragmentShader(DipFragmentBatch *batch);
 // alpha is the cutoff, the surface's edge runs through the pixel's middle; (alpha - cutoff) / slope
 // is the distance from the edge, in pixels. The share of the samples is this distance plus 1/2,
 // within 0..1 and rounded to the nearest number of samples, halves up. With one sample it is 1
-// exactly where alpha >= cutoff. The decision is made in integers, in 1/65536.
+// exactly where alpha >= cutoff. The decision is made in integers, in 1/65536. Numbers that are not
+// finite: the surface covers no sample where alpha - cutoff is NaN, and a slope that is NaN counts
+// as the steepest one, 1024.
 static inline int dip_alpha_to_coverage(float alpha, float slope, float cutoff, int sample_count) {
-    const float over = alpha - cutoff;
+    const float difference = alpha - cutoff;
+    // From half of the steepest slope on, all samples are covered, and as far below none is.
+    // Greater differences would not fit in an integer. The first bound also replaces NaN.
+    const float from_below = difference > -512.0f ? difference : -512.0f;
+    const float over = from_below < 512.0f ? from_below : 512.0f;
     const float bounded = slope < 1024.0f ? slope : 1024.0f; // also of NaN
     const float least = bounded > DIP_LEAST_ALPHA_SLOPE ? bounded : DIP_LEAST_ALPHA_SLOPE;
     const int32_t width = (int32_t)(least * 65536.0f);

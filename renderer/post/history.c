@@ -285,6 +285,7 @@ static void note(DipHistory *history) {
 
 DipHistoryWork dip_history_add(DipHistory *history, const DipHistoryPicture *picture,
                                uint8_t *to_rgba8, size_t to_stride_bytes) {
+    DIP_FP_MODE_SCOPE();
     DipHistoryWork work = {0};
     const int height = history->def.height;
     history->picture = picture;
@@ -293,10 +294,8 @@ DipHistoryWork dip_history_add(DipHistory *history, const DipHistoryPicture *pic
     if (!plan(history)) {
         return work;
     }
-    const DipFpMode mode = dip_fp_mode_set();
     dip_pool_run(history->def.pool, (height + DIP_POST_BAND - 1) / DIP_POST_BAND, add_band,
                  history);
-    dip_fp_mode_restore(mode);
     note(history);
     work.pixels_filtered =
         history->shows ? (uint64_t)history->def.width * (uint64_t)height : work.pixels_filtered;

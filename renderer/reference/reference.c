@@ -225,6 +225,7 @@ void dip_reference_set_frame_index(DipReference *reference, uint64_t frame_index
 }
 
 void dip_reference_set_time(DipReference *reference, int64_t time_ns) {
+    DIP_FP_MODE_SCOPE();
     reference->time_ns = time_ns;
     if (reference->posed) {
         dip_posed_def_set(reference->posed, time_ns);

@@ -2,6 +2,7 @@
 #include "renderer/scene/finish.h"
 
 #include "renderer/base/clock.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/pages.h"
 #include "renderer/post/post.h"
 
@@ -222,6 +223,7 @@ static void blend(const Past *past, const DipFinishMotion *motion, DipFrame *fra
 }
 
 void dip_finish_frame(DipFinish *finish, const DipFinishMotion *motion, DipFrame *frame) {
+    DIP_FP_MODE_SCOPE();
     const int64_t begin_ns = dip_clock_ns();
     bool filtered = false;
     if (finish->past.history) {

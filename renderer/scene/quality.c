@@ -2,6 +2,7 @@
 #include "renderer/scene/quality.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/nearest.h"
 #include "renderer/pipeline/pattern.h"
 
@@ -277,8 +278,11 @@ int dip_quality_drawn_size(const DipQuality *quality, int size) {
 }
 
 double dip_quality_scale(const DipQuality *quality) {
+    DIP_FP_MODE_SCOPE();
     const Ratio ratio = ratio_of(quality);
-    return (double)ratio.over / ratio.under;
+    double scale = (double)ratio.over / ratio.under;
+    DIP_FP_PIN(scale);
+    return scale;
 }
 
 bool dip_quality_upscales(const DipQuality *quality) {

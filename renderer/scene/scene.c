@@ -460,6 +460,7 @@ DipSceneTimes dip_scene_times(const DipScene *scene) {
 }
 
 bool dip_scene_moves(const DipScene *scene) {
+    DIP_FP_MODE_SCOPE();
     const bool drifts = scene->has_sky && (scene->sky.layers[0].speed_per_min != 0.0 ||
                                            scene->sky.layers[1].speed_per_min != 0.0);
     return drifts || (scene->motion && dip_motion_plays(scene->motion));

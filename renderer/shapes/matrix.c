@@ -7,10 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-// Makes every computation of a matrix happen before this statement, and therefore before the
-// caller's floating-point mode is restored (fp_mode.h).
-#define PIN_MATRIX(matrix) __asm__ volatile("" : "+m"(matrix) : : "memory")
-
 DipMatrix dip_matrix_identity(void) {
     return dip_matrix_scaling(1.0, 1.0, 1.0);
 }
@@ -58,7 +54,7 @@ DipMatrix dip_matrix_reflection(const double normal[3], double distance) {
         }
         made.m[4 * r + 3] = 2.0 * (normal[r] * distance);
     }
-    PIN_MATRIX(made);
+    DIP_FP_PIN_STRUCT(made);
     return made;
 }
 
@@ -76,7 +72,7 @@ DipMatrix dip_matrix_multiply(const DipMatrix *a, const DipMatrix *b) {
     DIP_FP_MODE_SCOPE();
     DipMatrix made;
     multiply(&made, a, b);
-    PIN_MATRIX(made);
+    DIP_FP_PIN_STRUCT(made);
     return made;
 }
 

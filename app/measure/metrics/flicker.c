@@ -1,6 +1,8 @@
 // Computes running means and deviations of errors over successive frames.
 #include "app/measure/metrics/flicker.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,6 +38,7 @@ void dip_flicker_restart(DipFlicker *flicker) {
 
 // Uses Welford's update, which computes mean and variance without subtracting large sums.
 void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) {
+    DIP_FP_MODE_SCOPE();
     double *mean = flicker->mean + flicker->added;
     double *deviation = flicker->deviation + flicker->added;
     float *last = flicker->last + flicker->added;
@@ -56,6 +59,7 @@ void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count) 
 }
 
 DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {
+    DIP_FP_MODE_SCOPE();
     const double frames = flicker->frame_count;
     const double values = (double)flicker->value_count;
     DipFlickerResult result = {0};
@@ -67,5 +71,6 @@ DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {
         result.squared_step = flicker->step_squares / (values * (frames - 1.0));
         result.squared_two_mean = flicker->pair_squares / (values * (frames - 1.0));
     }
+    DIP_FP_PIN_STRUCT(result);
     return result;
 }

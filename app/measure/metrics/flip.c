@@ -3,6 +3,7 @@
 #include "app/measure/metrics/flip.h"
 
 #include "app/measure/metrics/internal/filters.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/srgb.h"
 
 #include <math.h>
@@ -66,6 +67,8 @@ static int reach_px(const DipFlipKernels *k) {
 }
 
 bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(pixels_per_degree);
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
     *flip = (DipFlip){.width = width, .height = height};
@@ -247,6 +250,7 @@ static void analyse(const DipFlip *flip, const DipSrgbPicture *picture, const Bl
 
 void dip_flip_analyse_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             DipFlipAnalysis *analysis) {
+    DIP_FP_MODE_SCOPE();
     const Block b = block_of(flip, block);
     analyse(flip, picture, &b);
     for (int y = b.own.y; y < b.own.y + b.own.height; y++) {
@@ -312,6 +316,7 @@ static float feature_error(const DipFlipAnalysis *a, size_t i, const DipFlipAnal
 
 void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture, int block,
                             const DipFlipAnalysis *with, float *map) {
+    DIP_FP_MODE_SCOPE();
     const Block b = block_of(flip, block);
     const float greatest = greatest_distance();
     analyse(flip, picture, &b);
@@ -337,6 +342,8 @@ void dip_flip_compare(DipFlip *flip, const DipSrgbPicture *picture, const DipFli
 // Approximates Matplotlib's palette "magma" (public domain) by one polynomial of sixth degree per
 // channel. The 8-bit results differ from Matplotlib's table by at most 4.
 void dip_magma(float error, uint8_t rgb[3]) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(error);
     static const float coefficients[7][3] = {
         {-0.002136485f, -0.000749655f, -0.005386128f},
         {0.251660541f, 0.677523244f, 2.494026599f},

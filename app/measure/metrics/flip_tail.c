@@ -2,6 +2,8 @@
 // block.
 #include "app/measure/metrics/flip_tail.h"
 
+#include "renderer/base/fp_mode.h"
+
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,6 +70,7 @@ static void find_worst(DipFlipTailMeter *meter, const float *map, int width, int
 // --- percentiles ---------------------------------------------------------------------------------
 
 void dip_flip_tail_add(DipFlipTailMeter *meter, const float *map, int width, int height) {
+    DIP_FP_MODE_SCOPE();
     const size_t count = (size_t)width * (size_t)height;
     for (size_t i = 0; i < count; i++) {
         const int bin = (int)(map[i] * (float)BINS);
@@ -91,6 +94,7 @@ static double percentile(const DipFlipTailMeter *meter, double total, double sha
 }
 
 DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter) {
+    DIP_FP_MODE_SCOPE();
     double total = 0.0;
     for (int bin = 0; bin < BINS; bin++) {
         total += meter->histogram[bin];
@@ -99,5 +103,6 @@ DipFlipTail dip_flip_tail_result(const DipFlipTailMeter *meter) {
     tail.p50 = percentile(meter, total, 0.50);
     tail.p95 = percentile(meter, total, 0.95);
     tail.p99 = percentile(meter, total, 0.99);
+    DIP_FP_PIN_STRUCT(tail);
     return tail;
 }

@@ -4,6 +4,7 @@
 #include "app/measure/metrics/meter.h"
 
 #include "app/measure/metrics/ssim.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -175,6 +176,7 @@ static void measure_band(DipMeter *meter, int y) {
 // --- the whole -----------------------------------------------------------------------------------
 
 DipStep dip_meter_step(DipMeter *meter) {
+    DIP_FP_MODE_SCOPE();
     const int blocks =
         meter->kind >= DIP_METER_FLIP ? dip_picture_block_count(meter->width, meter->height) : 0;
     const int rows = band_rows(meter);
@@ -207,6 +209,7 @@ bool dip_meter_add(DipMeter *meter, const DipSrgbPicture *test, const float *tes
 }
 
 void dip_meter_end_burst(DipMeter *meter, DipMetricSums *sums) {
+    DIP_FP_MODE_SCOPE();
     const DipFlickerResult result =
         meter->kind == DIP_METER_BURSTS
             ? dip_flicker_result(&meter->flicker)

@@ -3,6 +3,7 @@
 #include "app/measure/metrics/ssim.h"
 
 #include "app/measure/metrics/internal/filters.h"
+#include "renderer/base/fp_mode.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -63,6 +64,7 @@ static float similarity(float *const planes[MOMENTS], size_t i) {
 }
 
 bool dip_ssim_map(const DipSrgbPicture *test, const DipSrgbPicture *truth, float *map) {
+    DIP_FP_MODE_SCOPE();
     const int width = test->width, height = test->height;
     const size_t count = (size_t)width * (size_t)height;
     const DipKernel1D kernel = window();

@@ -5,6 +5,7 @@
 #include "app/files/whole_file.h"
 #include "app/measure/metrics/meter.h"
 #include "renderer/base/file.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/srgb.h"
 #include "renderer/reference/convergence.h"
@@ -359,8 +360,11 @@ static bool begin_floor(DipTruthJob *job, DipError *err) {
     return true;
 }
 
-// Computes the mean of the halves for the next pixels.
+// Computes the mean of the halves for the next pixels. Only this step sets the floating-point mode:
+// the others call functions that set it themselves, or the caller's function `draw`, which runs in
+// the caller's mode.
 static DipStep join_halves(DipTruthJob *job, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     const size_t from = job->joined;
     const size_t left = pixel_count(job) - from;
     const size_t count = left < PIXELS_AT_ONCE ? left : PIXELS_AT_ONCE;
@@ -446,10 +450,13 @@ const DipTruth *dip_truth_job_truth(const DipTruthJob *job) {
 }
 
 double dip_truth_job_drawn(const DipTruthJob *job, int *samples) {
+    DIP_FP_MODE_SCOPE();
     *samples = job->phase < STORE ? HALVES * samples_of_level(job) : 0;
-    return job->phase >= DRAW && job->phase < STORE
-               ? (double)job->drawn / (HALVES * part_count(job))
-               : 0.0;
+    double share = job->phase >= DRAW && job->phase < STORE
+                       ? (double)job->drawn / (HALVES * part_count(job))
+                       : 0.0;
+    DIP_FP_PIN(share);
+    return share;
 }
 
 bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, DipPool *pool,
@@ -476,12 +483,18 @@ bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache, D
 }
 
 double dip_truth_floor_rmse(const DipMetricSums *floor, int region) {
-    // The error of the mean of two independent halves is half of their difference.
+    // The error of the mean of two independent halves is half of their difference. Halving is exact
+    // in every floating-point mode.
     return dip_metrics_of(floor, region).rmse_lin / 2.0;
 }
 
 bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums) {
-    return dip_metrics_of(sums, 0).rmse_lin < 3.0 * dip_truth_floor_rmse(floor, 0);
+    DIP_FP_MODE_SCOPE();
+    double least = 3.0 * dip_truth_floor_rmse(floor, 0);
+    double error = dip_metrics_of(sums, 0).rmse_lin;
+    DIP_FP_PIN(least);
+    DIP_FP_PIN(error);
+    return error < least;
 }
 
 DipMeterStandard dip_truth_standard(const DipTruth *truth) {

@@ -39,7 +39,7 @@ struct DipTruthDef;
 
 // A function of the caller that draws one half (0 or 1) of a truth, for scenes that the reference
 // renderer cannot draw. It adds the colours to rgb_lin, 3 values per pixel in linear light, which
-// are all 0 before.
+// are all 0 before. It runs in the caller's floating-point mode (renderer/base/fp_mode.h).
 typedef bool DipTruthDraw(const struct DipTruthDef *def, int half, double *rgb_lin, DipError *err);
 
 // Everything that a truth depends on.

@@ -2,6 +2,7 @@
 #include "app/measure/stats/estimate.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/trig.h"
 
 #include <math.h>
@@ -41,13 +42,18 @@ static double student_below(double t, double degrees) {
 }
 
 double dip_student_quantile(double probability, double degrees) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(probability);
+    DIP_FP_PIN(degrees);
     DIP_ASSERT(probability >= 0.5 && probability <= 0.999999 && degrees >= 1.0);
     double low = 0.0, high = 1e6;
     while (high - low > 1e-12 * (1.0 + low)) {
         const double middle = 0.5 * (low + high);
         *(student_below(middle, degrees) < probability ? &low : &high) = middle;
     }
-    return 0.5 * (low + high);
+    double quantile = 0.5 * (low + high);
+    DIP_FP_PIN(quantile);
+    return quantile;
 }
 
 // --- estimates -----------------------------------------------------------------------------------
@@ -57,6 +63,10 @@ DipEstimate dip_estimate_unknown(double value) {
 }
 
 DipEstimate dip_estimate_make(double value, double log_error, double degrees) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(value);
+    DIP_FP_PIN(log_error);
+    DIP_FP_PIN(degrees);
     if (!(log_error > 0.0) || isinf(log_error) || !(degrees >= 1.0)) {
         return dip_estimate_unknown(value);
     }
@@ -66,21 +76,30 @@ DipEstimate dip_estimate_make(double value, double log_error, double degrees) {
         estimate.low = NAN;
         estimate.high = NAN;
     }
+    DIP_FP_PIN_STRUCT(estimate);
     return estimate;
 }
 
 DipEstimate dip_estimate_widen(const DipEstimate *estimate, double log_error) {
-    return dip_estimate_make(estimate->value, hypot(estimate->log_error, log_error),
-                             estimate->degrees);
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(log_error);
+    double error = hypot(estimate->log_error, log_error);
+    DIP_FP_PIN(error);
+    return dip_estimate_make(estimate->value, error, estimate->degrees);
 }
 
 double dip_estimate_chance_below(const DipEstimate *estimate, double limit, double common_error) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(limit);
+    DIP_FP_PIN(common_error);
     const double error = hypot(estimate->log_error, common_error);
     if (!(error > 0.0) || !(estimate->value > 0.0)) {
         return NAN;
     }
-    return limit > 0.0 ? student_below(log(limit / estimate->value) / error, estimate->degrees)
-                       : 0.0;
+    double chance =
+        limit > 0.0 ? student_below(log(limit / estimate->value) / error, estimate->degrees) : 0.0;
+    DIP_FP_PIN(chance);
+    return chance;
 }
 
 // --- order statistics ----------------------------------------------------------------------------
@@ -92,12 +111,16 @@ static int compare(const void *a, const void *b) {
 }
 
 double dip_percentile(double *values, int count, double share) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(share);
     DIP_ASSERT(count > 0 && share >= 0.0 && share <= 1.0);
     qsort(values, (size_t)count, sizeof *values, compare);
     const double position = share * (count - 1);
     const int below = (int)position;
     const int above = below + 1 < count ? below + 1 : below;
-    return values[below] + (position - below) * (values[above] - values[below]);
+    double percentile = values[below] + (position - below) * (values[above] - values[below]);
+    DIP_FP_PIN(percentile);
+    return percentile;
 }
 
 // Returns the value that sorting would put at values[index]. Uses Hoare's selection, which reorders
@@ -132,6 +155,9 @@ static double select_value(double *values, int count, int index) {
 }
 
 double dip_median(double *values, int count) {
+    DIP_FP_MODE_SCOPE();
     const double below = select_value(values, count, (count - 1) / 2);
-    return count % 2 ? below : 0.5 * (below + select_value(values, count, count / 2));
+    double median = count % 2 ? below : 0.5 * (below + select_value(values, count, count / 2));
+    DIP_FP_PIN(median);
+    return median;
 }

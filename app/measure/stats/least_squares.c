@@ -2,6 +2,7 @@
 #include "app/measure/stats/least_squares.h"
 
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -26,6 +27,9 @@ static double scaled(double amount, double scale) {
 
 void dip_normal_equations_add(DipNormalEquations *equations, const double *amounts, double value,
                               double weight) {
+    DIP_FP_MODE_SCOPE();
+    DIP_FP_PIN(value);
+    DIP_FP_PIN(weight);
     for (int i = 0; i < equations->terms; i++) {
         const double a = weight * scaled(amounts[i], equations->scale[i]);
         for (int k = 0; k < equations->terms; k++) {
@@ -124,6 +128,7 @@ static bool move(int terms, bool *used, const double *solution, double *prices) 
 }
 
 void dip_least_squares_nonnegative(const DipNormalEquations *equations, double *prices) {
+    DIP_FP_MODE_SCOPE();
     const int terms = equations->terms;
     bool used[MAX] = {false};
     bool failed[MAX] = {false}; // Terms whose slope was only rounding error: their price is 0.
@@ -225,6 +230,7 @@ static int most_unexplained(const Design *design, const int *chosen, int count) 
 
 void dip_design_choose(const double *matrix, int rows, int terms, int given, int count,
                        int *chosen) {
+    DIP_FP_MODE_SCOPE();
     DIP_ASSERT(terms > 0 && terms <= MAX && 0 <= given && given <= count && count <= rows);
     Design design = {.matrix = matrix, .rows = rows, .terms = terms};
     for (int r = 0; r < rows; r++) {

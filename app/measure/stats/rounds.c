@@ -4,6 +4,7 @@
 
 #include "app/measure/stats/random.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stdlib.h>
 
@@ -94,6 +95,7 @@ static Variance variance_of(const DipTimesFit *fit, int subject, DipTimesValue v
 }
 
 DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other) {
+    DIP_FP_MODE_SCOPE();
     const DipTimesSubject *a = &fit->subjects[subject], *b = &fit->subjects[other];
     const DipTimesBase *base = &fit->bases[a->base];
     DIP_ASSERT(a->base == b->base);
@@ -112,7 +114,10 @@ DipEstimate dip_times_ratio_of(const DipTimesFit *fit, int subject, int other) {
         }
         variance = own_variance(fit, base, squares, 2.0 * base->pooled[DIP_TIMES_RATIO]);
     }
-    return estimate_of(fit, a->logs[DIP_TIMES_RATIO] - b->logs[DIP_TIMES_RATIO], variance);
+    DipEstimate ratio =
+        estimate_of(fit, a->logs[DIP_TIMES_RATIO] - b->logs[DIP_TIMES_RATIO], variance);
+    DIP_FP_PIN_STRUCT(ratio);
+    return ratio;
 }
 
 DipEstimate dip_times_ratio(const DipTimesFit *fit, int subject) {
@@ -142,9 +147,10 @@ static DipEstimate in_ms(const DipTimesFit *fit, int subject, DipTimesValue v) {
 }
 
 DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
+    DIP_FP_MODE_SCOPE();
     const DipTimesSubject *s = &fit->subjects[subject];
     const DipTimesBase *base = &fit->bases[s->base];
-    return (DipAlong){
+    DipAlong along = {
         .mean_ms = in_ms(fit, subject, DIP_TIMES_RATIO),
         .p95_ms = in_ms(fit, subject, DIP_TIMES_P95),
         .worst_ms = in_ms(fit, subject, DIP_TIMES_WORST),
@@ -152,6 +158,8 @@ DipAlong dip_times_along(const DipTimesFit *fit, int subject) {
         .kept = s->kept,
         .timed = s->timed,
     };
+    DIP_FP_PIN_STRUCT(along);
+    return along;
 }
 
 const double *dip_times_frames(const DipTimesFit *fit, int subject) {

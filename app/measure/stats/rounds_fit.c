@@ -4,6 +4,7 @@
 
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/fp_mode.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -539,6 +540,7 @@ DipTimesFit *dip_times_fit(const DipTimes *times, DipError *err) {
 }
 
 DipTimesFit *dip_times_fit_part(const DipTimes *times, int part, DipError *err) {
+    DIP_FP_MODE_SCOPE();
     DIP_ASSERT(times->subjects > 0 && times->frames > 0 && times->starts > 0 && times->rounds > 0);
     const size_t subjects = (size_t)times->subjects, frames = (size_t)times->frames;
     DipTimesFit *fit = calloc(1, sizeof *fit);

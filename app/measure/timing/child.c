@@ -4,6 +4,7 @@
 
 #include "app/measure/timing/processors.h"
 #include "app/measure/timing/thread_use.h"
+#include "renderer/base/fp_mode.h"
 #include "renderer/base/number.h"
 
 #include <errno.h>
@@ -183,6 +184,7 @@ void dip_child_stop(DipChild **child_pointer, bool at_once) {
 // milliseconds, or NAN if it is not known. dip_child_draw later divides it by the frame's time, so
 // that it becomes a share; dip_child_serve sends it to the parent as it is.
 static void set_use(DipTimed *timed, const DipThreadUse *before, const DipThreadUse *after) {
+    DIP_FP_MODE_SCOPE();
     timed->wait = after->has_wait ? 1e-6 * (double)(after->wait_ns - before->wait_ns) : NAN;
     timed->cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns);
     timed->switches = (double)(after->switches - before->switches);
@@ -222,6 +224,7 @@ static void store_word(char *word, DipBenchSample *sample, DipTimed *timed) {
 
 bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample, DipTimed *timed,
                     DipError *err) {
+    DIP_FP_MODE_SCOPE();
     char line[LINE_SIZE];
     *sample = (DipBenchSample){.hash = ""};
     const DipThreadUse before = dip_thread_watch_read(child->watch);
@@ -249,7 +252,9 @@ bool dip_child_draw(DipChild *child, const char *request, DipBenchSample *sample
 
 // --- answering ---------------------------------------------------------------------------------
 
+// printf rounds as the floating-point mode says.
 static void answer(const DipBenchSample *sample, const DipTimed *timed) {
+    DIP_FP_MODE_SCOPE();
     for (int stage = 0; stage < DIP_BENCH_STAGE_COUNT; stage++) {
         printf("%s_ms=%.6f ", dip_bench_stage_names[stage], sample->ms[stage]);
     }

@@ -5,6 +5,7 @@
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
+#include "renderer/base/fp_mode.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,6 +37,7 @@ static bool use_two_starts(DipDriver *d) {
 // Decides on the number of starts (most_start). This happens after the first round, which belongs
 // to the first start in any case.
 static void fix_starts(DipDriver *d, int64_t round_ns) {
+    DIP_FP_MODE_SCOPE();
     const double room_ns = d->def.most_start * (double)round_ns * d->def.rounds;
     if (!d->starts_are_fixed && d->def.starts > 2 && d->def.most_start > 0.0 && d->start == 0 &&
         (double)d->start_ns > room_ns) {
@@ -88,6 +90,10 @@ bool dip_driver_resume(DipDriver *d, const DipTimed *known, int count) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
+// The functions of the caller run in the caller's floating-point mode, as they would without the
+// driver: a mode can make a program slower or faster. Only what computes with their results sets
+// the mode.
+
 static int64_t now_ns(const DipDriver *d) {
     return d->calls.clock_ns ? d->calls.clock_ns(d->calls.context) : dip_clock_ns();
 }
@@ -101,6 +107,16 @@ static void rest(int64_t ns) {
     const struct timespec time = {.tv_sec = (time_t)(ns / 1000000000),
                                   .tv_nsec = (long)(ns % 1000000000)};
     nanosleep(&time, NULL);
+}
+
+// Writes how long a frame took, from the clock and from the use of the threads before and after it.
+static void set_times(DipTimed *timed, int64_t ns, const DipThreadUse *before,
+                      const DipThreadUse *after) {
+    DIP_FP_MODE_SCOPE();
+    timed->ms = fmax(1e-6 * (double)ns, 1e-6); // A clock may stand still for a frame.
+    timed->wait = 1e-6 * (double)(after->wait_ns - before->wait_ns) / timed->ms;
+    timed->cpu_ms = 1e-6 * (double)(after->cpu_ns - before->cpu_ns);
+    timed->switches = (double)(after->switches - before->switches);
 }
 
 // Draws a frame and writes its times to *timed.
@@ -142,10 +158,7 @@ static bool draw_frame(DipDriver *d, const DipDriverDraw *draw, DipTimed *timed,
     const int64_t ns = now_ns(d) - begin_ns;
     if (isnan(timed->ms)) {
         const DipThreadUse after = thread_use(d);
-        timed->ms = fmax(1e-6 * (double)ns, 1e-6); // A clock may stand still for a frame.
-        timed->wait = 1e-6 * (double)(after.wait_ns - before.wait_ns) / timed->ms;
-        timed->cpu_ms = 1e-6 * (double)(after.cpu_ns - before.cpu_ns);
-        timed->switches = (double)(after.switches - before.switches);
+        set_times(timed, ns, &before, &after);
     } else if (isnan(timed->wait)) {
         timed->wait = 0.0;
         d->has_wait = false;
@@ -169,18 +182,24 @@ static bool draw_next(DipDriver *d, DipError *err) {
     return true;
 }
 
-static bool draw_settling(DipDriver *d, DipError *err) {
-    DipTimed timed;
-    if (!draw_frame(d, &(DipDriverDraw){.phase = DIP_DRIVER_SETTLE}, &timed, err)) {
-        return false;
-    }
-    d->settle_ms[d->settle_runs++ % DIP_DRIVER_SETTLE_RUNS] = timed.ms;
+// Adds a time to phase 2, and finds whether the times have settled.
+static void judge_settling(DipDriver *d, const DipTimed *timed) {
+    DIP_FP_MODE_SCOPE();
+    d->settle_ms[d->settle_runs++ % DIP_DRIVER_SETTLE_RUNS] = timed->ms;
     if (d->settle_runs % DIP_DRIVER_SETTLE_RUNS == 0) {
         const double median = dip_median(d->settle_ms, DIP_DRIVER_SETTLE_RUNS);
         d->settled = d->settle_runs > DIP_DRIVER_SETTLE_RUNS &&
                      fabs(median - d->settle_last_ms) <= settle_tolerance * d->settle_last_ms;
         d->settle_last_ms = median;
     }
+}
+
+static bool draw_settling(DipDriver *d, DipError *err) {
+    DipTimed timed;
+    if (!draw_frame(d, &(DipDriverDraw){.phase = DIP_DRIVER_SETTLE}, &timed, err)) {
+        return false;
+    }
+    judge_settling(d, &timed);
     d->stage = d->settled || d->settle_runs == DIP_DRIVER_SETTLE_RUNS * SETTLE_TRIES
                    ? DIP_DRIVER_STAGE_PLAN
                    : DIP_DRIVER_STAGE_SETTLE;
@@ -381,6 +400,7 @@ DipDriverProgress dip_driver_progress(const DipDriver *d) {
 }
 
 DipDriverMachine dip_driver_machine(const DipDriver *d, int threads) {
+    DIP_FP_MODE_SCOPE();
     const double room_ms = d->run_ms * threads;
     DipDriverMachine machine = {
         .settled = d->settled || d->settle_runs == 0,
@@ -390,5 +410,6 @@ DipDriverMachine dip_driver_machine(const DipDriver *d, int threads) {
     if (room_ms > 0.0) {
         machine.wait = (d->has_wait ? d->wait_ms : room_ms - d->cpu_ms) / room_ms;
     }
+    DIP_FP_PIN_STRUCT(machine);
     return machine;
 }

@@ -95,7 +95,8 @@ typedef struct DipDriverTurn {
     int frame;
 } DipDriverTurn;
 
-// Functions of the caller. Those that return false, with *err filled, end the measurement.
+// Functions of the caller, which run in the caller's floating-point mode (renderer/base/fp_mode.h).
+// Those that return false, with *err filled, end the measurement.
 typedef struct DipDriverCalls {
     // Draws a frame. Writes timed->parts_ms if the times of the parts are known. If the function
     // knows the frame's time, for example from another process that draws the frame, it also writes

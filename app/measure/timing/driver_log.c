@@ -2,6 +2,8 @@
 // of repetitions.
 #include "app/measure/timing/driver_private.h"
 
+#include "renderer/base/fp_mode.h"
+
 static void add_to_log(DipDriver *d, const DipTimed *timed, double base_wait) {
     d->log[d->log_count] = *timed;
     d->base_wait[d->log_count++] = base_wait;
@@ -74,6 +76,7 @@ static bool is_mostly_disturbed(const DipDriver *d) {
 }
 
 void dip_driver_end_round(DipDriver *d) {
+    DIP_FP_MODE_SCOPE();
     for (int i = 0; i < d->fresh_count; i++) {
         const DipTimed *timed = &d->fresh[i];
         d->run_ms += timed->ms;

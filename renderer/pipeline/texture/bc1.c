@@ -10,6 +10,7 @@
 #include <stb/stb_dxt.h>
 
 void dip_bc1_encode(const uint8_t rgba8[64], uint8_t block[DIP_BC1_BYTES]) {
+    DIP_FP_MODE_SCOPE();
     stb_compress_dxt_block(block, rgba8, 0, STB_DXT_NORMAL);
 }
 

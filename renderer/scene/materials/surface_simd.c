@@ -75,7 +75,7 @@ void DIP_KERNEL(dip_kernel_surface_clip)(DipFragmentBatch *batch) {
 
 // Does what dip_alpha_to_coverage does, for a vector of fragments.
 VEC_INLINE Vi alpha_to_coverage(Vf alpha, Vf slope, float cutoff, int sample_count) {
-    const Vf over = alpha - cutoff;
+    const Vf over = vf_min(vf_max(alpha - cutoff, vf_splat(-512.0f)), vf_splat(512.0f));
     const Vf least = vf_max(vf_min(slope, vf_splat(1024.0f)), vf_splat(DIP_LEAST_ALPHA_SLOPE));
     const Vi width = vi_from_float(least * 65536.0f);
     const Vi below = vi_select(vf_lt(over, vf_splat(0.0f)), vi_splat(1), vi_splat(0));

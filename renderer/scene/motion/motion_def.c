@@ -149,6 +149,7 @@ static bool check_mesh(const DipSceneDef *scene, int index, DipError *err) {
 }
 
 bool dip_motion_check(const DipSceneDef *scene, DipError *err) {
+    DIP_FP_MODE_SCOPE(); // Subnormal times differ from each other only in this mode.
     const DipMotionDef *motion = scene->motion;
     bool fine = true;
     for (int r = 0; fine && r < motion->rig_count; r++) {
@@ -164,6 +165,7 @@ bool dip_motion_check(const DipSceneDef *scene, DipError *err) {
 }
 
 bool dip_motion_plays(const DipMotionDef *motion) {
+    DIP_FP_MODE_SCOPE();
     for (int r = 0; r < motion->rig_count; r++) {
         if (!motion->rigs[r].is_held && motion->rigs[r].duration_s > 0.0) {
             return true;

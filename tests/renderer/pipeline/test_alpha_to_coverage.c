@@ -295,6 +295,28 @@ static void one_sample_is_the_alpha_test(void **state) {
     assert_int_equal(dip_alpha_to_coverage(0.5f, (float)INFINITY, 0.5f, 8), 4);
 }
 
+// A surface far above the cutoff covers all samples and one far below it covers none, also where
+// the difference does not fit in an integer. Where it is NaN, the surface covers none.
+static void any_numbers_cover_all_or_none(void **state) {
+    (void)state;
+    static const float slopes[] = {0.0f, 0.02f, 1.0f, 1024.0f, 1e30f, INFINITY, NAN, -1.0f};
+    static const float far[] = {600.0f, 1.5e4f, 32768.0f, 70000.0f, 1e9f, 1e30f, INFINITY};
+    for (int samples = 1; samples <= DIP_MAX_SAMPLES; samples++) {
+        for (size_t s = 0; s < sizeof slopes / sizeof *slopes; s++) {
+            const float slope = slopes[s];
+            for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
+                assert_int_equal(dip_alpha_to_coverage(far[i], slope, 0.5f, samples), samples);
+                assert_int_equal(dip_alpha_to_coverage(-far[i], slope, 0.5f, samples), 0);
+                assert_int_equal(dip_alpha_to_coverage(0.5f, slope, far[i], samples), 0);
+                assert_int_equal(dip_alpha_to_coverage(0.5f, slope, -far[i], samples), samples);
+            }
+            assert_int_equal(dip_alpha_to_coverage(NAN, slope, 0.5f, samples), 0);
+            assert_int_equal(dip_alpha_to_coverage(0.5f, slope, NAN, samples), 0);
+            assert_int_equal(dip_alpha_to_coverage(INFINITY, slope, INFINITY, samples), 0);
+        }
+    }
+}
+
 // --- the order of samples ------------------------------------------------------------------------
 
 typedef struct Search {
@@ -369,6 +391,7 @@ int main(void) {
         cmocka_unit_test(coverage_is_within_half_a_sample_of_alpha),
         cmocka_unit_test(so_it_is_in_mirrored_copies),
         cmocka_unit_test(one_sample_is_the_alpha_test),
+        cmocka_unit_test(any_numbers_cover_all_or_none),
         cmocka_unit_test(the_first_samples_stay_nearest_to_the_centre),
         cmocka_unit_test(groups_and_alpha_to_coverage_exclude_each_other),
     };

@@ -3,7 +3,6 @@
 #include "renderer/post/post.h"
 #include "tests/renderer/post/post_model.h"
 
-#include <fenv.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -313,28 +312,6 @@ static void all_machines_filter_the_same_bits(void **state) {
     dip_pool_destroy(&pool);
 }
 
-// The caller's rounding mode changes nothing, neither when a filter is made nor when it runs.
-static void the_callers_mode_changes_nothing(void **state) {
-    (void)state;
-    static const int modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-    Picture from = drawn_picture(64, 40);
-    for (int f = 0; f < DIP_POST_COUNT; f++) {
-        const DipPostFilter filter = (DipPostFilter)f;
-        const int width = dip_post_enlarges(filter) ? 99 : 64;
-        Picture nearest = filtered(&from, filter, width, 40, 0.4f, dip_isa_best(), NULL, NULL);
-        for (int m = 0; m < 3; m++) {
-            fesetround(modes[m]);
-            Picture other = filtered(&from, filter, width, 40, 0.4f, dip_isa_best(), NULL, NULL);
-            assert_int_equal(fegetround(), modes[m]);
-            fesetround(FE_TONEAREST);
-            assert_memory_equal(nearest.rgba8, other.rgba8, (size_t)width * 40 * 4);
-            free(other.rgba8);
-        }
-        free(nearest.rgba8);
-    }
-    free(from.rgba8);
-}
-
 // A filter may run again and again, with other pictures and strides; what it held before leaves no
 // trace, and it writes nothing between the rows.
 static void runs_leave_no_trace(void **state) {
@@ -419,7 +396,6 @@ int main(void) {
         cmocka_unit_test(flat_pictures_stay),
         cmocka_unit_test(the_same_size_is_the_same_picture),
         cmocka_unit_test(all_machines_filter_the_same_bits),
-        cmocka_unit_test(the_callers_mode_changes_nothing),
         cmocka_unit_test(runs_leave_no_trace),
         cmocka_unit_test(what_cannot_be_filtered_is_refused),
     };
