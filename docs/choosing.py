@@ -22,6 +22,8 @@ again, so the same command continues an interrupted one. Use another folder for 
 times and study-times pass only --size, --isa and --rounds on to `diptych bench`.
 """
 import argparse
+import array
+import bisect
 import csv
 import json
 import os
@@ -55,11 +57,13 @@ SPACES = ("aa,taa,aaa,af,miplod", "aa,aaa,af,scale")
 PANEL = {"Performance": .5, "Balanced": .8, "Quality": .95, "Best": 1.}
 MOST_TIME = 4.
 CLEARLY_BETTER = .99  # of the FLIP of the line before
-# Camera path and field of view of the study's viewpoints, and which of how many places of `cost` has
-# the study's frame. (The frame of MIPLOD lies between two places.)
+# Camera path and field of view of the study's viewpoints, which of how many places of `cost` has the
+# study's frame (the frame of MIPLOD lies between two places), and the number of this frame at how many
+# frames a second.
 VIEWPOINTS = {
-    "AA": ("aa", 45, 2, 9), "AAA": ("aaa", 45, 1, 9), "AF": ("af", 55, 2, 6),
-    "MIPLOD": ("miplod", 50, 64, 116), "WATER": ("water", 50, 2, 9), "DEFAULT": ("ambient", 55, 0, 3),
+    "AA": ("aa", 45, 2, 9, 200, 30), "AAA": ("aaa", 45, 1, 9, 120, 30), "AF": ("af", 55, 2, 6, 300, 30),
+    "MIPLOD": ("miplod", 50, 64, 116, 387, 29), "WATER": ("water", 50, 2, 9, 200, 30),
+    "DEFAULT": ("ambient", 55, 0, 3, 300, 30),
 }
 # The study's FLIP, the mean of these viewpoints, and its times of drawing and of filtering, as
 # multiples of the time of a frame without antialiasing. The time of aa=4,aaa=all is its estimate;
@@ -79,6 +83,8 @@ STUDY = {
 }
 STUDY_RUNS = (["--combine", "taa"], ["--baseline", "aa=4", "--combine", "scale,upscale"])
 STUDY_OPTIONS = "--errors-only --burst 1 --size 640x480 --pictures none".split()
+# What the filter of the study makes of the finished picture of twice the size stands beside these.
+OF_CODES = {"scale=2": "aa=none", "aa=4,scale=2": "aa=4"}
 FLIP_MISS, TIME_MISS = .03, .15  # what is near the study
 # For each place, the left top corner of a detail in a picture of 640x480, and settings.
 DETAILS = {
@@ -202,11 +208,12 @@ def study_config(config, fov):
 
 
 def study_job(folder, name, number, options):
-    path, fov, place, places = VIEWPOINTS[name]
+    path, fov, place, places, _, _ = VIEWPOINTS[name]
     config = folder / f"{name}.ini"
     job = cost_job(folder / f"{name}-{number}", "--config", config, "--path",
                    ROOT / "campaths" / f"{path}.pth", "--places", str(places), "--part",
-                   f"{place}:{place + 1}", *STUDY_OPTIONS, *STUDY_RUNS[number], *options)
+                   f"{place}:{place + 1}", "--save-truths", folder / "truths", *STUDY_OPTIONS,
+                   *STUDY_RUNS[number], *options)
 
     def make(diptych):
         study_config(config, fov)
@@ -214,14 +221,89 @@ def study_job(folder, name, number, options):
     return Job(job.out, make)
 
 
+def codes_of_light():
+    """The least light of each code of 8 bits but 0: a code is the nearest one in sRGB."""
+    return [light_of(code - .5) for code in range(1, 256)]
+
+
+def light_of(code):
+    value = code / 255
+    return value / 12.92 if value <= .04045 else ((value + .055) / 1.055) ** 2.4
+
+
+def write_ppm(file, width, height, light):
+    limits = codes_of_light()
+    codes = bytes(bisect.bisect_right(limits, value) for value in light)
+    file.write_bytes(b"P6\n%d %d\n255\n" % (width, height) + codes)
+
+
+def halved(codes, width, height):
+    """The mean light of each 2x2 pixels of a picture of twice this size."""
+    light = [light_of(code) for code in range(256)]
+    row_bytes = 6 * width
+    for y in range(height):
+        rows = [codes[at:at + row_bytes] for at in (2 * y * row_bytes, (2 * y + 1) * row_bytes)]
+        for x in range(0, row_bytes, 6):
+            for at in range(x, x + 3):
+                yield sum(light[row[at + right]] for row in rows for right in (0, 3)) / 4
+
+
+def read_truth(file):
+    """Width, height and light of a PFM file, whose bottom row is the first."""
+    head, size, _, data = file.read_bytes().split(b"\n", 3)
+    width, height = map(int, size.split())
+    assert head == b"PF" and len(data) == 12 * width * height
+    light = array.array("f", data)
+    if sys.byteorder == "big":
+        light.byteswap()
+    return width, height, [value for y in reversed(range(height))
+                           for value in light[3 * width * y:3 * width * (y + 1)]]
+
+
+def codes_job(folder, name):
+    """FLIP of what the study made for the sets of OF_CODES: it averaged the codes of pictures of twice
+    the size, in linear light."""
+    path, _, place, _, frame, fps = VIEWPOINTS[name]
+    out, drawn, halves, truth = [folder / f"{name}{end}" for end in
+                                 ("-codes.json", ".rgb", "-half.ppm", "-truth.ppm")]
+
+    def make(diptych):
+        width, height, light = read_truth(folder / "truths" / f"{path}-{place}-0.pfm")
+        write_ppm(truth, width, height, light)
+        flips = {}
+        for settings, draw in OF_CODES.items():
+            subprocess.run([diptych, "dump", "--config", folder / f"{name}.ini", "--path",
+                            ROOT / "campaths" / f"{path}.pth", "--frames", f"{frame}:{frame + 1}",
+                            "--fps", str(fps), "--size", f"{2 * width}x{2 * height}", "--requested", draw,
+                            "--pane", "requested", "--raw", drawn], check=True, capture_output=True)
+            write_ppm(halves, width, height, halved(drawn.read_bytes(), width, height))
+            said = subprocess.run([diptych, "compare", halves, truth, "--json"], check=True,
+                                  stdout=subprocess.PIPE)
+            flips[settings] = json.loads(said.stdout)["flip"]
+        out.write_text(json.dumps(flips))
+    return Job(out, make)
+
+
 def study_jobs(folder, options):
-    return {(name, number): study_job(folder / "study", name, number, options)
+    jobs = {(name, number): study_job(folder / "study", name, number, options)
             for name in VIEWPOINTS for number in range(len(STUDY_RUNS))}
+    return jobs | {(name, "codes"): codes_job(folder / "study", name) for name in VIEWPOINTS}
+
+
+def show_codes(outs):
+    found = [json.loads(outs[name, "codes"].read_text()) for name in VIEWPOINTS]
+    rows = []
+    for settings in OF_CODES:
+        now, then = sum(flips[settings] for flips in found) / len(found), STUDY[settings][0]
+        rows.append([named(settings), short(then, 4), short(now, 4), f"{100 * (now / then - 1):+.1f} %"])
+    table(["settings", "FLIP in the study", "FLIP of averaged codes", "difference"], rows)
 
 
 def show_study(outs):
     found = {}
-    for (name, _), out in outs.items():
+    for (name, number), out in outs.items():
+        if number == "codes":
+            continue
         for row in json.loads(out.read_text())["rows"]:
             if "all" in row["figures"]:
                 found.setdefault(changed(row["settings"]), {})[name] = row["figures"]["all"]["flip"]
@@ -232,6 +314,7 @@ def show_study(outs):
         rows.append([named(settings), short(then, 4), short(now, 4), f"{100 * (now / then - 1):+.1f} %"])
     table(["settings", "FLIP in the study", "FLIP here", "difference"], rows)
     print(f"{near} of {len(STUDY)} are within {100 * FLIP_MISS:.0f} % of the study.\n")
+    show_codes(outs)
 
 
 def study_time_jobs(folder, options):
