@@ -264,14 +264,14 @@ def codes_job(folder, name):
     """FLIP of what the study made for the sets of OF_CODES: it averaged the codes of pictures of twice
     the size, in linear light."""
     path, _, place, _, frame, fps = VIEWPOINTS[name]
-    out, drawn, halves, truth = [folder / f"{name}{end}" for end in
-                                 ("-codes.json", ".rgb", "-half.ppm", "-truth.ppm")]
+    out, drawn, truth = [folder / f"{name}{end}" for end in ("-codes.json", ".rgb", "-truth.ppm")]
 
     def make(diptych):
         width, height, light = read_truth(folder / "truths" / f"{path}-{place}-0.pfm")
         write_ppm(truth, width, height, light)
         flips = {}
         for settings, draw in OF_CODES.items():
+            halves = folder / f"{name}-{draw}.ppm"
             subprocess.run([diptych, "dump", "--config", folder / f"{name}.ini", "--path",
                             ROOT / "campaths" / f"{path}.pth", "--frames", f"{frame}:{frame + 1}",
                             "--fps", str(fps), "--size", f"{2 * width}x{2 * height}", "--requested", draw,

@@ -132,13 +132,13 @@ def main():
     with open("twice.ini", "w", encoding="utf-8") as file:
         file.write(f"RES: 32x24\nXFILE: {data}/gltf/losses.gltf\nRES: 40x30\n")
     write_hostile(source)
-    losses = check_dump(diptych, "losses", ["--model", f"{data}/gltf/losses.gltf"], 8)
-    placed = check_dump(diptych, "placed", ["--config", "twice.ini"], 9)
+    losses = check_dump(diptych, "losses", ["--model", f"{data}/gltf/losses.gltf"], 13)
+    placed = check_dump(diptych, "placed", ["--config", "twice.ini"], len(losses) + 1)
     check("the ini's warning comes first, with its line",
           (placed[0]["file"], placed[0]["line"], placed[0]["key"]) == ("twice.ini", 3, "RES"), placed)
     check("the model's warnings follow", placed[1:] == losses)
     check_dump(diptych, "square", ["--model", f"{data}/square.gltf"], 0)
-    hostile = check_dump(diptych, "hostile", ["--model", "hostile.gltf"], 12)
+    hostile = check_dump(diptych, "hostile", ["--model", "hostile.gltf"], len(losses) + 4)
     check("a hostile text arrives",
           any("</script><script>alert(1)</script>" in w["message"] for w in hostile), hostile)
 

@@ -396,7 +396,7 @@ static void warnings_of_loading_are_kept_in_order(void **state) {
     DipSession session;
     dip_error_list_add(&faults, &earlier);
     open_model(&session, &options, &faults);
-    assert_int_equal(session.warnings.count, 2 + 8); // Of the ini and of the model.
+    assert_int_equal(session.warnings.count, 2 + 13); // Of the ini and of the model.
     assert_int_equal(session.warnings_left_out, 0);
     assert_int_equal(faults.count, 1 + session.warnings.count);
     assert_memory_equal(session.warnings.items, faults.items + 1,
