@@ -40,7 +40,8 @@ typedef struct DipMeterStandard {
     // linear light and flicker are not measured.
     const float *rgb_lin;
     const DipFlipAnalysis *analysis; // FLIP's analysis of the picture; if NULL, the meter makes it.
-    const uint8_t *classes; // What each pixel shows (DipSeen). Kinds without regions ignore it.
+    // What each pixel shows (DipSeen). Kinds with regions need it, and the others ignore it.
+    const uint8_t *classes;
 } DipMeterStandard;
 
 // A meter and the picture that it measures. The fields are private. A meter borrows the data of

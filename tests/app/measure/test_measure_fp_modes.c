@@ -195,10 +195,15 @@ static void call_ssim(DipHash *hash) {
 
 // Measures with and without linear light, as single pictures and as bursts.
 static void call_meter(DipHash *hash) {
+    static uint8_t classes[PIXELS];
+    for (int i = 0; i < PIXELS; i++) {
+        classes[i] = (uint8_t)(i % (DIP_METRIC_REGION_COUNT - 1));
+    }
     for (int i = 0; i < 4; i++) {
         DipMeter meter;
         DipMetricSums sums = some_sums(0);
-        const DipMeterStandard standard = {.picture = pictures[1].picture, .rgb_lin = light[1]};
+        const DipMeterStandard standard = {
+            .picture = pictures[1].picture, .rgb_lin = light[1], .classes = classes};
         const DipMeterKind kind = i < 2 ? DIP_METER_BURSTS : DIP_METER_PICTURES;
         assert_true(dip_meter_init(&meter, kind, WIDTH, HEIGHT, 67.02));
         assert_true(
