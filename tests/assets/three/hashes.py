@@ -4,9 +4,9 @@
 Usage: hashes.py DIPTYCH LIST [--write | --all-ways]
 
 The list holds the pictures that beside.py has compared with those of three.js. They are drawn with
-the scalar kernels on one thread, with the best instruction set on three, and with all effects forced
-on two; with --all-ways also with each instruction set that this machine has. --write writes the list;
-then run beside_models.sh, too. The exit code is 77 if numpy is missing.
+the scalar kernels on one thread, and with all effects forced by the best instruction set on three;
+with --all-ways also as planned by each instruction set that this machine has, on two. --write writes
+the list; then run beside_models.sh, too. The exit code is 77 if numpy is missing.
 """
 import pathlib
 import subprocess
@@ -14,8 +14,8 @@ import sys
 
 import ours
 
-WAYS = (("--isa", "scalar", "--threads", "1"), ("--isa", "auto", "--threads", "3"),
-        ("--force-all-effects", "--threads", "2"))
+WAYS = (("--isa", "scalar", "--threads", "1"),
+        ("--isa", "auto", "--threads", "3", "--force-all-effects"))
 SETS = ("sse2", "avx2", "avx512", "neon")
 
 
