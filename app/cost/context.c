@@ -90,18 +90,25 @@ static bool cut_history(const DipCostContext *cost, const DipQuality *quality) {
     return dip_quality_has_history(quality) && !cost->gallery;
 }
 
+// The time from one timed frame of a path to the next.
+static int64_t timed_step_ns(const DipCostContext *cost, int path) {
+    return dip_cost_path_duration_ns(cost->report, cost->session, path) /
+           dip_cost_frame_count(cost->report);
+}
+
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err) {
+    static const int64_t most_ns = INT64_C(1000000000) / 30;
+    const int64_t step_ns = timed_step_ns(cost, path);
+    const int64_t before_ns = step_ns < most_ns ? step_ns : most_ns;
     DipFrame before;
     return !cut_history(cost, quality) || index == 0 ||
-           dip_cost_draw_timed(cost, quality, path, index - 1, &before, err);
+           draw(cost, quality, path, step_ns * index - before_ns, index - 1, &before, err);
 }
 
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                          DipFrame *frame, DipError *err) {
-    const int64_t step_ns = dip_cost_path_duration_ns(cost->report, cost->session, path) /
-                            dip_cost_frame_count(cost->report);
-    return draw(cost, quality, path, step_ns * index, index, frame, err);
+    return draw(cost, quality, path, timed_step_ns(cost, path) * index, index, frame, err);
 }
 
 // Draws frame `index` of a burst. If the settings have a history, draws before frame 0 the

@@ -60,7 +60,8 @@ void dip_cost_context_close(DipCostContext *cost);
 // dip_cost_draw_timed draws the timed frame `index` of a path, 0..dip_cost_frame_count - 1. Call
 // dip_cost_prepare_timed with the same arguments before. dip_cost_prepare_timed lets the renderer's
 // history begin anew. If frames are blended with a history of earlier frames (taa=history, for
-// models only), dip_cost_prepare_timed then draws the frame before `index`, if there is one.
+// models only), dip_cost_prepare_timed then draws the frame that the path shows 1/30 s before, or
+// at the timed frame before if that is nearer; before frame 0, there is none.
 bool dip_cost_prepare_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,
                             DipError *err);
 bool dip_cost_draw_timed(DipCostContext *cost, const DipQuality *quality, int path, int index,

@@ -6,6 +6,7 @@
 #include "app/measure/metrics/meter.h"
 #include "app/preview/live/processor_share.h"
 #include "renderer/base/clock.h"
+#include "renderer/base/trig.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,6 +23,7 @@ struct DipLivePrices {
     DipPainter *painters[2];
     DipLivePicture picture;
     bool has_picture;
+    bool continues; // The next frame follows the one that `prepare` has drawn.
     char scene[DIP_COST_TEXT];
     char processor[DIP_COST_TEXT];
 
@@ -61,20 +63,49 @@ static DipPainter *painter_for(DipLivePrices *live, const DipQuality *quality, D
     return *painter;
 }
 
-static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
-                 DipError *err) {
-    DipLivePrices *live = context;
+// Draws a frame. With `cut`, it begins a new history.
+static bool draw_pose(DipLivePrices *live, const DipQuality *quality, uint64_t frame_index,
+                      bool cut, const DipPose *pose, DipFrame *frame, DipError *err) {
     DipPainter *painter = painter_for(live, quality, err);
     if (!painter) {
         return false;
     }
     dip_painter_set_frame_index(painter, frame_index);
-    // The cut drops the history of temporal antialiasing. A frame without a history takes as long
-    // as a frame that is drawn while the camera moves.
-    dip_painter_cut(painter);
+    if (cut) {
+        dip_painter_cut(painter);
+    }
     return dip_painter_set_quality(painter, quality, err) &&
-           dip_painter_draw(painter, live->session->scene, &live->picture.pose,
-                            live->picture.time_ns, frame, err);
+           dip_painter_draw(painter, live->session->scene, pose, live->picture.time_ns, frame, err);
+}
+
+static bool draw(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
+                 DipError *err) {
+    DipLivePrices *live = context;
+    const bool cut = !live->continues;
+    live->continues = false;
+    return draw_pose(live, quality, frame_index, cut, &live->picture.pose, frame, err);
+}
+
+// The picture's camera, turned to the left by about a pixel.
+static DipPose turned(const DipLivePicture *picture) {
+    DipPose pose = picture->pose;
+    const double *q = picture->pose.orientation;
+    const double half = picture->pose.fov_y_deg / picture->height * (DIP_PI / 360.0);
+    const double s = dip_sin(half), c = dip_cos(half);
+    const double product[4] = {q[0] * c - q[2] * s, q[1] * c + q[3] * s, q[2] * c + q[0] * s,
+                               q[3] * c - q[1] * s};
+    memcpy(pose.orientation, product, sizeof product);
+    return pose;
+}
+
+// A pane at rest spends less on its history than one whose camera moves. Prices are those of a
+// moving camera, as in a report.
+static bool prepare(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err) {
+    DipLivePrices *live = context;
+    const DipPose pose = turned(&live->picture);
+    DipFrame before;
+    live->continues = draw_pose(live, quality, frame_index, true, &pose, &before, err);
+    return live->continues;
 }
 
 static void forget(DipLivePrices *live) {
@@ -122,7 +153,11 @@ DipLivePrices *dip_live_prices_create(DipSession *session, DipPrices *prices, Di
     live->session = session;
     live->prices = prices;
     const DipPriceJobCalls calls = {
-        .draw = draw, .threads = dip_pool_thread_count(session->pool), .context = live};
+        .draw = draw,
+        .prepare = prepare,
+        .threads = dip_pool_thread_count(session->pool),
+        .context = live,
+    };
     live->job = dip_price_job_create(&calls, prices, err);
     if (!live->job) {
         dip_live_prices_destroy(&live);
@@ -213,6 +248,7 @@ static int find_unjudged(const DipLivePrices *live) {
 // Draws the picture that a pane with these settings shows at rest.
 static bool draw_at_rest(DipLivePrices *live, const DipQuality *quality, DipFrame *frame) {
     const bool has_history = dip_quality_has_history(quality) && live->session->scene;
+    live->continues = false;
     bool drawn = draw(live, quality, 0, frame, NULL);
     for (int i = 1; drawn && has_history && i < DIP_FRAMES_BEFORE; i++) {
         DipPainter *painter = painter_for(live, quality, NULL);

@@ -142,11 +142,22 @@ static void drop_block(DipPriceJob *job) {
 // Temporal AA has one sample pattern for frames with even indices and one for odd indices. Each
 // round begins with the pattern that the previous round timed, so that the rounds time both
 // patterns in turn.
+static uint64_t frame_index_of(const DipDriverTurn *turn) {
+    const bool is_timed = turn->phase == DIP_DRIVER_TIMED;
+    return (uint64_t)(FRAMES_OF_A_VISIT * turn->round + is_timed + turn->round % 2);
+}
+
+static bool prepare(void *context, const DipDriverTurn *turn, DipError *err) {
+    const DipPriceJob *job = context;
+    const DipQuality *quality = &job->members[turn->subject].quality;
+    return turn->phase != DIP_DRIVER_TIMED || !dip_quality_has_history(quality) ||
+           job->calls.prepare(job->calls.context, quality, frame_index_of(turn) - 1, err);
+}
+
 static bool draw(void *context, const DipDriverTurn *turn, DipTimed *timed, DipError *err) {
     DipPriceJob *job = context;
     Member *member = &job->members[turn->subject];
-    const bool is_timed = turn->phase == DIP_DRIVER_TIMED;
-    const uint64_t index = (uint64_t)(FRAMES_OF_A_VISIT * turn->round + is_timed + turn->round % 2);
+    const uint64_t index = frame_index_of(turn);
     const int64_t begin_ns = now_ns(job);
     DipFrame frame = {0};
     if (!job->calls.draw(job->calls.context, &member->quality, index, &frame, err)) {
@@ -195,6 +206,7 @@ static bool begin_block(DipPriceJob *job) {
     };
     const DipDriverCalls calls = {
         .draw = draw,
+        .prepare = job->calls.prepare ? prepare : NULL,
         .clock_ns = clock_ns,
         .thread_use = job->calls.thread_use ? thread_use : NULL,
         .context = job,

@@ -32,6 +32,10 @@ typedef struct DipPriceJobCalls {
     // until dip_price_job_forget.
     bool (*draw)(void *context, const DipQuality *quality, uint64_t frame_index, DipFrame *frame,
                  DipError *err);
+    // Draws what comes before a timed frame whose settings have a history: the frame that a moving
+    // camera would have shown before it. The next call of `draw` is for the timed frame. NULL: the
+    // timed frame begins a history.
+    bool (*prepare)(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err);
     int64_t (*now_ns)(void *context);          // NULL: the job calls dip_clock_ns.
     DipThreadUse (*thread_use)(void *context); // NULL: the job watches this process's threads.
     int threads;                               // Number of threads that draw a frame.

@@ -271,6 +271,18 @@ static void scenes_of_the_gallery_have_prices(void **state) {
     check_all_known(false);
 }
 
+// A history is dearer while the camera moves, which is what reports time. The frame that is timed
+// must therefore blend its pixels with those of a frame that another pose has shown.
+static void a_history_is_priced_for_a_moving_camera(void **state) {
+    (void)state;
+    assert_true(dip_quality_parse("taa=history", &quality[DIP_PANE_REQUESTED], NULL));
+    measure(NULL, 0);
+    const int row = dip_prices_find_live(prices, &quality[DIP_PANE_REQUESTED]);
+    assert_true(row >= 0);
+    const double *counters = dip_prices_live(prices)->rows[row].counters;
+    assert_true(counters[DIP_COUNTER_pixels_reprojected] > 0.5 * WIDTH * HEIGHT);
+}
+
 int main(int argc, char **argv) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
@@ -280,6 +292,7 @@ int main(int argc, char **argv) {
         TEST(times_wait_while_a_truth_is_drawn),
         TEST(another_picture_has_no_prices_yet),
         TEST(another_baseline_begins_anew),
+        TEST(a_history_is_priced_for_a_moving_camera),
         TEST(scenes_of_the_gallery_have_prices),
     };
     assets = argc > 1 ? argv[1] : "assets";

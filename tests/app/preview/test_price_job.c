@@ -26,6 +26,8 @@ static bool refuses;       // The painter fails.
 static DipQuality last;    // Settings of the last frame.
 static unsigned parities;  // Bit p: a timed frame had an index of parity p.
 static bool last_was_cold; // The last frame was the first one with its settings.
+static uint64_t due; // Index of the frame that must follow a prepared one; 0 if none was prepared.
+static int followed, histories; // Frames after such a frame, and all frames with a history.
 
 // The time that a frame takes, without cold caches, drift or noise.
 static double true_ms(const DipQuality *quality) {
@@ -94,6 +96,10 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
     if (refuses) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "renderer", "no memory for samples");
     }
+    histories += dip_quality_has_history(quality);
+    followed += due > 0;
+    assert_true(due == 0 || (frame_index == due && dip_quality_has_history(quality)));
+    due = 0;
     const bool cold = frames == 0 || memcmp(&last, quality, sizeof last) != 0;
     if (!cold && last_was_cold) {
         parities |= 1u << frame_index % 2;
@@ -108,6 +114,14 @@ static bool draw(void *context, const DipQuality *quality, uint64_t frame_index,
     last = *quality;
     last_was_cold = cold;
     frames++;
+    return true;
+}
+
+static bool prepare(void *context, const DipQuality *quality, uint64_t frame_index, DipError *err) {
+    (void)context;
+    (void)err;
+    assert_true(due == 0 && dip_quality_has_history(quality));
+    due = frame_index + 1;
     return true;
 }
 
@@ -135,13 +149,20 @@ static int set_up(void **state) {
     random_ = 1;
     refuses = false;
     parities = 0;
+    due = 0;
+    followed = histories = 0;
     works = false;
     prices = dip_prices_create(NULL);
     waits = 0.0;
     slow = 1.0;
     use = (DipThreadUse){.has_wait = true};
     const DipPriceJobCalls calls = {
-        .draw = draw, .now_ns = read_clock, .thread_use = read_use, .threads = 1};
+        .draw = draw,
+        .prepare = prepare,
+        .now_ns = read_clock,
+        .thread_use = read_use,
+        .threads = 1,
+    };
     job = dip_price_job_create(&calls, prices, NULL);
     assert_true(prices && job);
     return 0;
@@ -460,6 +481,15 @@ static void predictions_miss_as_often_as_they_say(void **state) {
     }
 }
 
+// Of each two frames with a history, the second one is timed and follows a frame of its own.
+static void timed_frames_with_a_history_follow_another_frame(void **state) {
+    (void)state;
+    follow("aa=none", "taa=history");
+    work_until_done();
+    assert_true(followed > 0);
+    assert_int_equal(histories, 2 * followed);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
@@ -470,6 +500,7 @@ int main(void) {
         TEST(progress_counts_steps_and_seconds),
         TEST(all_prices_are_soon_known_roughly),
         TEST(what_is_known_is_not_timed_again),
+        TEST(timed_frames_with_a_history_follow_another_frame),
         TEST(the_nearest_steps_come_first),
         TEST(an_interrupted_block_leaves_no_price),
         TEST(prices_of_a_busy_machine_are_doubtful),
