@@ -242,9 +242,12 @@ static void sample_shadow(DipFragmentBatch *batch, const DipShadowMap *map, cons
 // --- binding -------------------------------------------------------------------------------------
 
 void dip_shader_guard_begin(DipShaderGuard *guard, const DipKernels *kernels, const DipPass *pass,
+                            const DipPass *const *at_once, int at_once_count,
                             const float *srgb_light) {
     guard->kernels = kernels;
     guard->pass = pass;
+    guard->at_once = at_once;
+    guard->at_once_count = at_once_count;
     guard->srgb_light = srgb_light;
     guard->fault.code = DIP_ERROR_NONE;
 }

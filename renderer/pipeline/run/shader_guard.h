@@ -10,7 +10,7 @@
 typedef struct DipShaderGuard {
     const DipKernels *kernels;
     const DipPass *pass;
-    const DipPass *const *at_once; // the passes that are drawn at once; set by the caller
+    const DipPass *const *at_once; // the passes that are drawn at once, `pass` among them
     int at_once_count;
     const float *srgb_light;
     const DipDraw *draw;
@@ -25,8 +25,10 @@ typedef struct DipShaderGuard {
     uint32_t fault_draw;
 } DipShaderGuard;
 
-// Forgets the faults of earlier passes.
+// Forgets the faults of earlier passes. at_once: the passes that are drawn at once, this one among
+// them; borrowed until the next call.
 void dip_shader_guard_begin(DipShaderGuard *guard, const DipKernels *kernels, const DipPass *pass,
+                            const DipPass *const *at_once, int at_once_count,
                             const float *srgb_light);
 
 // Binds a batch to a draw: its uniforms, samplers and functions. The first varying_count varyings

@@ -276,9 +276,8 @@ void dip_tile_worker_begin_pass(DipTileWorker *worker) {
     worker->shading.share.from = NULL;
     DipShaderGuard *const guards[2] = {&worker->guard, &worker->clip_guard};
     for (int i = 0; i < 2; i++) {
-        dip_shader_guard_begin(guards[i], pass->kernels, pass->pass, pass->srgb_light);
-        guards[i]->at_once = pass->at_once;
-        guards[i]->at_once_count = pass->at_once_count;
+        dip_shader_guard_begin(guards[i], pass->kernels, pass->pass, pass->at_once,
+                               pass->at_once_count, pass->srgb_light);
     }
 }
 
