@@ -172,7 +172,7 @@ def prepare():
     head = subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=TOP, text=True).strip()
     if not TREE.exists():
         subprocess.check_call(["git", "clone", "-q", str(TOP), str(TREE)])
-    subprocess.check_call(["git", "fetch", "-q", "origin"], cwd=TREE)
+    subprocess.check_call(["git", "fetch", "-q", "origin", "HEAD"], cwd=TREE)
     subprocess.check_call(["git", "checkout", "-q", "--force", "--detach", head], cwd=TREE)
     for command in (["cmake", "--preset", "ci", "-DDIP_WERROR=OFF"], ["cmake", "--build", "--preset", "ci"]):
         code, output = run(command, 1800)
