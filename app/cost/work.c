@@ -70,13 +70,14 @@ static void list_groups(DipCostReport *report, int end[DIP_WORK_GROUPS]) {
 // Adds the corners (dip_work_is_corner) to the list.
 static void add_corners(DipCostReport *report) {
     const DipQuality *baseline = &report->options.baseline;
-    const unsigned combined =
-        report->options.combined & (1u << DIP_SETTING_AA | 1u << DIP_SETTING_SCALE);
     DipQuality list[DIP_COST_MOST_COUNTED];
-    const int count = dip_cost_list_combinations(baseline, combined, list, DIP_COST_MOST_COUNTED);
-    for (int i = 0; i < count; i++) {
-        if (dip_work_is_corner(baseline, &list[i])) {
-            add_prediction(report, &list[i]);
+    for (int p = 0; p < DIP_WORK_PAIRS; p++) {
+        const int count = dip_cost_list_combinations(
+            baseline, report->options.combined & dip_work_pair(p), list, DIP_COST_MOST_COUNTED);
+        for (int i = 0; i < count; i++) {
+            if (dip_work_is_corner(baseline, &list[i])) {
+                add_prediction(report, &list[i]);
+            }
         }
     }
 }

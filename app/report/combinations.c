@@ -138,47 +138,64 @@ static void add_shadows(const double *of, const double *base, double *counters) 
 
 // --- corners -------------------------------------------------------------------------------------
 
-static const unsigned corner_settings = 1u << DIP_SETTING_AA | 1u << DIP_SETTING_SCALE;
+// The settings of each pair, in the order of DipSetting.
+static const DipSetting pairs[DIP_WORK_PAIRS][2] = {
+    {DIP_SETTING_AA, DIP_SETTING_SCALE},
+    {DIP_SETTING_SCALE, DIP_SETTING_POST},
+};
 
-// Returns whether a combination differs from the base at most in AA and in the render scale.
-static bool is_near_corner(const DipQuality *base, const DipQuality *quality) {
-    const DipQuality alone = dip_cost_take_settings(base, quality, corner_settings);
+unsigned dip_work_pair(int pair) {
+    return 1u << pairs[pair][0] | 1u << pairs[pair][1];
+}
+
+// Returns whether a combination differs from the base at most in the settings of a pair.
+static bool is_near_corner(const DipQuality *base, const DipQuality *quality, int pair) {
+    const DipQuality alone = dip_cost_take_settings(base, quality, dip_work_pair(pair));
     return dip_quality_equal(&alone, quality);
 }
 
+static bool differ_in(const DipQuality *base, const DipQuality *quality, int pair) {
+    const DipSetting first = pairs[pair][0], second = pairs[pair][1];
+    return quality->step[first] != base->step[first] && quality->step[second] != base->step[second];
+}
+
 bool dip_work_is_corner(const DipQuality *base, const DipQuality *quality) {
-    return is_near_corner(base, quality) &&
-           quality->step[DIP_SETTING_AA] != base->step[DIP_SETTING_AA] &&
-           quality->step[DIP_SETTING_SCALE] != base->step[DIP_SETTING_SCALE];
+    bool is = false;
+    for (int p = 0; p < DIP_WORK_PAIRS; p++) {
+        is |= is_near_corner(base, quality, p) && differ_in(base, quality, p);
+    }
+    return is;
 }
 
 void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
                           const DipQuality *quality, const double *counters) {
-    const int aa = quality->step[DIP_SETTING_AA], scale = quality->step[DIP_SETTING_SCALE];
-    DIP_ASSERT(aa < DIP_WORK_MOST_STEPS && scale < DIP_WORK_MOST_STEPS);
-    if (is_near_corner(base, quality)) {
-        corners->of[aa][scale] = counters;
+    for (int p = 0; p < DIP_WORK_PAIRS; p++) {
+        const int first = quality->step[pairs[p][0]], second = quality->step[pairs[p][1]];
+        DIP_ASSERT(first < DIP_WORK_MOST_STEPS && second < DIP_WORK_MOST_STEPS);
+        if (is_near_corner(base, quality, p)) {
+            corners->of[p][first][second] = counters;
+        }
     }
 }
 
-// Corrects counters that were composed as if AA and the render scale did not depend on each other.
-// Does nothing if the corners that this needs were not counted.
-static void join_corner(const DipWorkSum *sum, const DipQuality *quality, double *counters) {
-    const int aa = quality->step[DIP_SETTING_AA], scale = quality->step[DIP_SETTING_SCALE];
-    const int base_aa = sum->base->step[DIP_SETTING_AA];
-    const int base_scale = sum->base->step[DIP_SETTING_SCALE];
-    if (!sum->corners || aa == base_aa || scale == base_scale) {
+// Corrects counters that were composed as if the two settings of a pair did not depend on each
+// other. Does nothing if the corners that this needs were not counted.
+static void join_corner(const DipWorkSum *sum, const DipQuality *quality, int pair,
+                        double *counters) {
+    if (!sum->corners || !differ_in(sum->base, quality, pair)) {
         return;
     }
-    const double *corner = sum->corners->of[aa][scale];
-    const double *of_aa = sum->corners->of[aa][base_scale];
-    const double *of_scale = sum->corners->of[base_aa][scale];
-    if (!corner || !of_aa || !of_scale) {
+    const DipSetting a = pairs[pair][0], b = pairs[pair][1];
+    const double *const(*of)[DIP_WORK_MOST_STEPS] = sum->corners->of[pair];
+    const double *corner = of[quality->step[a]][quality->step[b]];
+    const double *of_first = of[quality->step[a]][sum->base->step[b]];
+    const double *of_second = of[sum->base->step[a]][quality->step[b]];
+    if (!corner || !of_first || !of_second) {
         return;
     }
     double composed[DIP_COUNTER_COUNT];
-    memcpy(composed, of_aa, sizeof composed);
-    apply(of_scale, sum->of_base, composed);
+    memcpy(composed, of_first, sizeof composed);
+    apply(of_second, sum->of_base, composed);
     for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
         counters[c] *= composed[c] > 0.0 ? corner[c] / composed[c] : 1.0;
     }
@@ -202,7 +219,9 @@ void dip_work_add(DipWorkSum *sum, const DipQuality *part, const double *of_part
 void dip_work_end(const DipWorkSum *sum, const DipQuality *quality,
                   double counters[DIP_COUNTER_COUNT]) {
     memcpy(counters, sum->counters, DIP_COUNTER_COUNT * sizeof *counters);
-    join_corner(sum, quality, counters);
+    for (int p = 0; p < DIP_WORK_PAIRS; p++) {
+        join_corner(sum, quality, p, counters);
+    }
     counters[DIP_COUNTER_pixels_filtered] = sum->pixels * dip_cost_pixels_filtered(quality);
     if (sum->of_shadows) {
         add_shadows(sum->of_shadows, sum->of_base, counters);
@@ -221,12 +240,11 @@ static bool add_part(DipWorkSum *sum, DipWorkFind *find, const void *context,
     return of_part != NULL;
 }
 
-// Notes the counters of the base with the combination's AA, with its render scale, and with both,
-// as far as they were counted.
+// Notes the counters of the base with either setting of a pair taken from a combination, and with
+// both, as far as they were counted.
 static void find_corners(DipWorkFind *find, const void *context, const DipQuality *base,
-                         const DipQuality *quality, DipWorkCorners *corners) {
-    static const unsigned settings[] = {1u << DIP_SETTING_AA, 1u << DIP_SETTING_SCALE,
-                                        1u << DIP_SETTING_AA | 1u << DIP_SETTING_SCALE};
+                         const DipQuality *quality, int pair, DipWorkCorners *corners) {
+    const unsigned settings[] = {1u << pairs[pair][0], 1u << pairs[pair][1], dip_work_pair(pair)};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         const DipQuality part = dip_cost_take_settings(base, quality, settings[i]);
         dip_work_note_corner(corners, base, &part, find(context, &part));
@@ -240,21 +258,24 @@ bool dip_work_compose(DipWorkFind *find, const void *context, const DipQuality *
     if (!of_base || dip_work_count_groups(base, quality) < 0) {
         return false;
     }
-    DipWorkCorners corners = {0};
-    const DipQuality corner = dip_cost_take_settings(base, quality, corner_settings);
-    if (dip_work_is_corner(base, &corner)) {
-        find_corners(find, context, base, quality, &corners);
-    }
     DipWorkSum sum = dip_work_begin(base, of_base);
-    sum.corners = &corners;
     bool known = add_part(&sum, find, context, quality, groups[0]) &&
                  (quality->step[DIP_SETTING_SHADOWS] == base->step[DIP_SETTING_SHADOWS] ||
                   add_part(&sum, find, context, quality, shadows));
-    if (known && !add_part(&sum, find, context, quality, ~groups[0] & ~shadows)) {
-        for (int g = 1; known && g < DIP_WORK_GROUPS; g++) {
-            known = groups[g] == shadows || add_part(&sum, find, context, quality, groups[g]);
+    const unsigned others = ~groups[0] & ~shadows;
+    const bool as_one = known && add_part(&sum, find, context, quality, others);
+    for (int g = 1; known && !as_one && g < DIP_WORK_GROUPS; g++) {
+        known = groups[g] == shadows || add_part(&sum, find, context, quality, groups[g]);
+    }
+    // What the settings of a pair do together is known already if they belong to one part.
+    DipWorkCorners corners = {0};
+    for (int p = 0; known && p < DIP_WORK_PAIRS; p++) {
+        const bool in_one_part = as_one && (dip_work_pair(p) & ~others) == 0;
+        if (!in_one_part && differ_in(base, quality, p)) {
+            find_corners(find, context, base, quality, p, &corners);
         }
     }
+    sum.corners = &corners;
     if (known) {
         dip_work_end(&sum, quality, counters);
     }

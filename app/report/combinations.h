@@ -39,10 +39,11 @@ enum { DIP_COST_COMPANY_AA = 2, DIP_COST_COMPANY_AF = 4, DIP_COST_COMPANY_SCALE 
 // the factors by which each group alone changes it. The pixels that filters write follow from the
 // settings instead, and the work of shadows is added.
 //
-// Antialiasing and render scale depend on each other: together they decide how many samples lie on
-// a small triangle, and so whether it is drawn, and how many pixels show several fragments.
-// Combinations that change only these two settings are therefore counted, too (corners). They
-// correct the product of the two factors.
+// Two pairs of settings depend on each other. Antialiasing and render scale together decide how
+// many samples lie on a small triangle, and so whether it is drawn, and how many pixels show
+// several fragments. Post-process AA finds fewer edges in a picture that is drawn smaller.
+// Combinations that change both settings of a pair and nothing else are therefore counted, too
+// (corners). They correct the product of the two factors.
 
 // Returns how many pixels all filters of the finished picture write, per pixel of the frame.
 double dip_cost_pixels_filtered(const DipQuality *quality);
@@ -57,19 +58,25 @@ unsigned dip_work_group(int group);
 // They are borrowed until dip_work_compose returns.
 typedef const double *DipWorkFind(const void *context, const DipQuality *quality);
 
-// Holds the counters of the base with other steps of AA and of the render scale, indexed
-// [AA][scale]. An entry is NULL if its combination was not counted.
+enum { DIP_WORK_PAIRS = 2 };
+
+// Returns the mask of the two settings of a pair, 0 to DIP_WORK_PAIRS - 1.
+unsigned dip_work_pair(int pair);
+
+// Holds the counters of the base with other steps of the two settings of a pair, indexed
+// [pair][step of the setting that DipSetting lists first][step of the other]. An entry is NULL if
+// its combination was not counted.
 enum { DIP_WORK_MOST_STEPS = 8 };
 typedef struct DipWorkCorners {
-    const double *of[DIP_WORK_MOST_STEPS][DIP_WORK_MOST_STEPS];
+    const double *of[DIP_WORK_PAIRS][DIP_WORK_MOST_STEPS][DIP_WORK_MOST_STEPS];
 } DipWorkCorners;
 
-// Returns whether a combination is a corner: it differs from the base in AA and in the render
-// scale, and in nothing else.
+// Returns whether a combination is a corner: it differs from the base in both settings of a pair,
+// and in nothing else.
 bool dip_work_is_corner(const DipQuality *base, const DipQuality *quality);
 
-// Notes the counters of a combination, which are borrowed, if it differs from the base at most in
-// AA and in the render scale.
+// Notes the counters of a combination, which are borrowed, for each pair if it differs from the
+// base at most in the settings of this pair.
 void dip_work_note_corner(DipWorkCorners *corners, const DipQuality *base,
                           const DipQuality *quality, const double *counters);
 

@@ -24,8 +24,8 @@
 #define BIT(NAME) (1u << DIP_SETTING_##NAME)
 
 static const unsigned all_settings = ((1u << DIP_SETTING_COUNT) - 1) & ~BIT(MIPDEBUG);
-static const unsigned some_settings = BIT(AA) | BIT(AAA) | BIT(ASD) | BIT(AF) | BIT(MIPLOD) |
-                                      BIT(SCALE) | BIT(UPSCALE) | BIT(SHADOWS);
+static const unsigned some_settings =
+    BIT(AA) | BIT(AAA) | BIT(ASD) | BIT(AF) | BIT(POST) | BIT(SCALE) | BIT(UPSCALE) | BIT(SHADOWS);
 
 // --- how many ------------------------------------------------------------------------------------
 
@@ -67,6 +67,7 @@ static void make_work(const DipQuality *quality, double *counters) {
         2e6 * scale * scale * probes * (1.0 + 0.1 * step[DIP_SETTING_MIPLOD]);
     counters[DIP_COUNTER_shadow_texels] = 1e5 * step[DIP_SETTING_SHADOWS];
     counters[DIP_COUNTER_pixels_filtered] = 3e5 * dip_cost_pixels_filtered(quality);
+    counters[DIP_COUNTER_edges_found] = 1e5 * step[DIP_SETTING_POST] * scale;
 }
 
 // Measures some of the listed combinations: those of one group, and every tenth other one.
@@ -148,7 +149,8 @@ static void the_search_finds_the_best_of_all(void **state) {
             corners +=
                 dip_work_is_corner(&report.options.baseline, &report.predicted.list[i].quality);
         }
-        assert_int_equal(corners, 4 * 7); // the other steps of AA times those of the scale
+        assert_int_equal(
+            corners, (4 + 2) * 7); // the other steps of AA and of post, times those of the scale
         assert_int_equal(report.predicted.searched, count);
         measure_some(&report, seed);
         const double base_ms = dip_cost_ms(&report, 0);
