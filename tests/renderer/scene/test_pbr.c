@@ -406,6 +406,30 @@ static void balls_equal_the_reference(void **state) {
     author_free(&scene);
 }
 
+// Four balls whose normal maps have normals that lean by 60 degrees to all sides, so that their
+// means are short: the lobe becomes as wide as it can, however rough the surface is by itself.
+static void lobes_widen_up_to_a_limit_as_the_reference_does(void **state) {
+    (void)state;
+    enum { SIZE = 256 };
+    author_begin(&scene);
+    const int bumps = author_add_texture(&scene, SIZE, DIP_ENCODING_LINEAR);
+    uint8_t *texels = author_texels(&scene, bumps);
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        const int side = (i % 2) + 2 * (i / SIZE % 2);
+        texels[4 * i] = (uint8_t)(side == 0 ? 238 : side == 3 ? 17 : 128);
+        texels[4 * i + 1] = (uint8_t)(side == 1 ? 238 : side == 2 ? 17 : 128);
+        texels[4 * i + 2] = 191;
+    }
+    for (int i = 0; i < 4; i++) {
+        const int material = author_add_pbr(&scene, 1.0f, 0.3f * (float)i + 0.1f);
+        scene.materials[material].normal_map = bumps;
+        scene.pbrs[material].normal_scale = 1.0f;
+        author_add_sphere(&scene, material, (float[3]){1.4f * (float)i - 2.1f, 0.0f, 0.0f}, 0.65f);
+    }
+    compare_with_reference("pbr_spread", "aa=none");
+    author_free(&scene);
+}
+
 // Filtered texels of 1 can be an ulp above 1. A rough ball must not darken there.
 static void a_white_map_leaves_the_roughness_as_it_is(void **state) {
     (void)state;
@@ -607,6 +631,7 @@ int main(void) {
         cmocka_unit_test(balls_equal_the_reference),
         cmocka_unit_test(a_white_map_leaves_the_roughness_as_it_is),
         cmocka_unit_test(all_parts_equal_the_reference),
+        cmocka_unit_test(lobes_widen_up_to_a_limit_as_the_reference_does),
         cmocka_unit_test(every_machine_and_thread_count_draws_the_same_bits),
         cmocka_unit_test(the_plan_names_the_parts_that_run),
         cmocka_unit_test(absent_parts_do_not_run),
