@@ -10,6 +10,7 @@ source=$1 build=$2 to=$3
 command=$(documented install.md 'cmake --install')
 grep -qF "$(tail -1 "$folder/documented")" "$source/README.md" ||
     fail "README.md installs by another command than docs/install.md"
+without_the_rest
 run_quietly "the build cannot be installed" sh -c "$command"
 rm -rf "$to"
 mv "$prefix" "$to"

@@ -12,6 +12,7 @@ command -v dpkg-shlibdeps >/dev/null && command -v dpkg-deb >/dev/null ||
 
 rm -f "$build"/diptych-*.zip "$build"/diptych_*.deb
 command=$(documented install.md 'cpack ')
+without_the_rest
 run_quietly "the build cannot be packed" sh -c "$command"
 dpkg-deb -x "$build"/diptych_*.deb "$folder/package"
 mkdir "$folder/archive"

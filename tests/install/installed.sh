@@ -18,6 +18,12 @@ run_quietly() {
     "$@" >"$folder/log" 2>&1 || { cat "$folder/log"; fail "$what"; }
 }
 
+# without_the_rest: takes the manual page from the build, as if ./run had made it, which builds the
+# program alone. Installing and packing must build the rest first.
+without_the_rest() {
+    rm "$build/diptych.1"
+}
+
 # documented PAGE START: prints the line of a page that begins with START, for this installed copy.
 documented() {
     line=$(grep -F -- "$2" "$source/docs/$1" | grep "^$2" | head -1)
