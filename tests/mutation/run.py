@@ -12,9 +12,10 @@ A mutant goes through these stages until one catches it:
 1. near: the quick tests of the nearest folder that has some: for renderer/pipeline/texture/texture.c
    those of tests/renderer/pipeline. Only their programs are built.
 2. catalogue: the catalogue of hard cases (tests/stability), if the mutant is in its program.
-3. folder: the other tests of the nearest folder. Again, only their programs are built.
-4. all: everything is built, and the other unit and picture tests run, slow ones last.
-5. sanitizer: the catalogue with the address and undefined-behaviour sanitizers, also only if the
+3. hashes: the shipped hashes of whole pictures, if the mutant is in the program that tests them.
+4. folder: the other tests of the nearest folder. Again, only their programs are built.
+5. all: everything is built, and the other unit and picture tests run, slow ones last.
+6. sanitizer: the catalogue with the address and undefined-behaviour sanitizers, also only if the
    mutant is in its program.
 
 After the first build of a file that was changed, its object files are compared with those of the
@@ -55,6 +56,7 @@ CHOICE = ["-L", "unit|image", "-LE", "long|window"]
 # A test of the nearest folder that takes longer runs after the catalogue of hard cases.
 QUICK_SECONDS = 5.0
 STABILITY = "tests/stability/stability"
+HASHES = "tests/renderer/scene/test_shipped_hashes"
 
 # (name, pattern, replacement). A rule changes one place of a line, outside comments and texts.
 RULES = [
@@ -323,6 +325,8 @@ class Judge:
         """Returns (verdict, by what, stage in which it was caught)."""
         stages = [("near", programs_of(self.near), lambda: ctest("-R", one_of(self.near))),
                   ("catalogue", [STABILITY], lambda: self.is_newer(STABILITY) and catalogue()),
+                  ("hashes", [HASHES],
+                   lambda: self.is_newer(HASHES) and ctest("-R", one_of([os.path.basename(HASHES)]))),
                   ("folder", programs_of(self.folder), lambda: ctest("-R", one_of(self.folder))),
                   ("all", [], self.other_tests)]
         for stage, targets, tests in stages:
