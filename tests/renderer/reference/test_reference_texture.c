@@ -223,17 +223,60 @@ static void coordinates_repeat_or_clamp_according_to_the_address_mode(void **sta
     dip_reference_texture_free(&texture);
 }
 
+// Returns the texel 0..size - 1 that a walk along the texture in one direction meets at place t,
+// back and forth for a mirrored axis; -1 for a border.
+static int walk_to(int t, int size, DipWrap wrap) {
+    int at = 0, step = t < 0 ? -1 : 1;
+    bool outside = false, back = false;
+    for (int k = 0; k != t; k += step) {
+        const int next = at + (back ? -step : step);
+        if (next >= 0 && next < size) {
+            at = next;
+            continue;
+        }
+        outside = true;
+        back = wrap == DIP_WRAP_MIRROR ? !back : back; // The last texel is met twice.
+        at = wrap == DIP_WRAP_REPEAT ? (next + size) % size : at;
+    }
+    return wrap == DIP_WRAP_BORDER && outside ? -1 : at;
+}
+
+static void centres_of_texels_are_met_as_by_a_walk(void **state) {
+    (void)state;
+    static const DipWrap wraps[] = {DIP_WRAP_REPEAT, DIP_WRAP_CLAMP, DIP_WRAP_MIRROR,
+                                    DIP_WRAP_BORDER};
+    fill_ramp(7, 5);
+    for (int w = 0; w < 16; w++) {
+        DipTextureDef def = make_def(7, 5, DIP_ENCODING_LINEAR, wraps[w % 4]);
+        def.wrap_v = wraps[w / 4];
+        memcpy(def.border_rgba8, (uint8_t[4]){250, 251, 252, 9}, 4);
+        DipRefTexture texture;
+        open_texture(&texture, &def);
+        for (int i = 0; i < 35 * 25; i++) {
+            const int x = i % 35 - 14, y = i / 35 - 10;
+            const double uv[2] = {(x + 0.5) / 7.0, (y + 0.5) / 5.0};
+            const int column = walk_to(x, 7, def.wrap_u), row = walk_to(y, 5, def.wrap_v);
+            const bool border = column < 0 || row < 0;
+            double rgba[4];
+            dip_reference_sample_finest(&texture, uv, rgba);
+            assert_near(255.0 * rgba[0], border ? 250 : column, 1e-9);
+            assert_near(255.0 * rgba[1], border ? 251 : row, 1e-9);
+            assert_near(255.0 * rgba[3], border ? 9 : 255 - column, 1e-9);
+        }
+        dip_reference_texture_free(&texture);
+    }
+}
+
 static void any_coordinate_is_read_from_inside_the_texture(void **state) {
     (void)state;
     static const double awkward[] = {0.0,    -1e-18,   1.0,       -1.0, 1e30,
                                      -1e300, INFINITY, -INFINITY, NAN};
     fill_noise(7, 5);
-    for (int wrap = 0; wrap < 2; wrap++) {
-        const DipTextureDef def =
-            make_def(7, 5, DIP_ENCODING_SRGB, wrap ? DIP_WRAP_CLAMP : DIP_WRAP_REPEAT);
+    for (int wrap = 0; wrap < 4; wrap++) {
+        const DipTextureDef def = make_def(7, 5, DIP_ENCODING_SRGB, (DipWrap)wrap);
         DipRefTexture texture;
         open_texture(&texture, &def);
-        const DipRefFilter filter = {.max_anisotropy = 16, .exact_footprint = wrap};
+        const DipRefFilter filter = {.max_anisotropy = 16, .exact_footprint = wrap % 2};
         for (int i = 0; i < 9 * 9 * 9; i++) {
             const double uv[2] = {awkward[i % 9], awkward[i / 9 % 9]};
             const double dx[2] = {awkward[i / 81], 0.5};
@@ -305,6 +348,7 @@ int main(void) {
         cmocka_unit_test(a_ramp_is_read_exactly),
         cmocka_unit_test(probes_lie_at_interval_midpoints),
         cmocka_unit_test(coordinates_repeat_or_clamp_according_to_the_address_mode),
+        cmocka_unit_test(centres_of_texels_are_met_as_by_a_walk),
         cmocka_unit_test(any_coordinate_is_read_from_inside_the_texture),
         cmocka_unit_test(mip_colours_follow_the_level_size),
         cmocka_unit_test(high_performance_drops_levels_by_size),
