@@ -18,6 +18,8 @@ A mutant goes through these stages until one catches it:
 6. sanitizer: the catalogue with the address and undefined-behaviour sanitizers, also only if the
    mutant is in its program.
 
+A stage runs only the tests that run a program whose bytes changed: the others cannot fail.
+
 After the first build of a file that was changed, its object files are compared with those of the
 unchanged tree. If none differs, those that were not built yet decide whether the mutant is
 equivalent. A journal's line tells the stage that caught the mutant. Before the first mutant of a
@@ -204,6 +206,8 @@ class Unchanged:
                     self.objects.setdefault(path, []).append(name)
         self.hashes = hashes({name for names in self.objects.values() for name in names})
         self.tests = self.list_tests()
+        self.programs = hashes({program for tests in self.tests.values()
+                                for program in programs_of(tests)})
         self.seconds = self.time_tests(head)
 
     def list_tests(self):
@@ -299,10 +303,25 @@ class Judge:
         self.near, self.folder = unchanged.near_tests(file)
         self.begin = (TREE / file).stat().st_mtime_ns
         self.differs = None  # whether the machine code does, once it is known
+        self.changed = {}    # program that was built after the change -> whether its bytes changed
 
     def is_newer(self, name):
         """True if a file of the build was made after the change. Others are as they were."""
         return (BUILD / name).exists() and (BUILD / name).stat().st_mtime_ns > self.begin
+
+    def affected(self, tests):
+        """Returns the names of those tests, of a map to their programs, that the change can affect:
+        those that run a program whose bytes changed. The programs must have been built."""
+        for name in programs_of(tests):
+            if name not in self.changed and self.is_newer(name):
+                self.changed[name] = hashes([name])[name] != self.unchanged.programs[name]
+        return [test for test, programs in tests.items()
+                if any(self.changed.get(program) for program in programs)]
+
+    def test(self, tests):
+        """Runs those tests that the change can affect. Returns the first that fails, or None."""
+        names = self.affected(tests)
+        return ctest("-R", one_of(names)) if names else None
 
     def build(self, *targets):
         """Builds targets, or all without any, and then looks whether the machine code differs.
@@ -323,11 +342,11 @@ class Judge:
 
     def judge(self):
         """Returns (verdict, by what, stage in which it was caught)."""
-        stages = [("near", programs_of(self.near), lambda: ctest("-R", one_of(self.near))),
+        stages = [("near", programs_of(self.near), lambda: self.test(self.near)),
                   ("catalogue", [STABILITY], lambda: self.is_newer(STABILITY) and catalogue()),
                   ("hashes", [HASHES],
                    lambda: self.is_newer(HASHES) and ctest("-R", one_of([os.path.basename(HASHES)]))),
-                  ("folder", programs_of(self.folder), lambda: ctest("-R", one_of(self.folder))),
+                  ("folder", programs_of(self.folder), lambda: self.test(self.folder)),
                   ("all", [], self.other_tests)]
         for stage, targets, tests in stages:
             if stage in ("near", "folder") and not targets:
@@ -344,9 +363,11 @@ class Judge:
 
     def other_tests(self):
         """Runs the tests that did not run yet, quick ones first. Returns the first that fails."""
-        done = [*self.near, *self.folder]
-        others = SLOW_TESTS + "|" + one_of(done) if done else SLOW_TESTS
-        return ctest("-E", others) or ctest("-R", SLOW_TESTS)
+        tests = {name: programs for group in self.unchanged.tests.values()
+                 for name, programs in group.items()}
+        skipped = {*self.near, *self.folder} | set(tests).difference(self.affected(tests))
+        return (ctest("-E", SLOW_TESTS + "|" + one_of(skipped)) or
+                ctest("-R", SLOW_TESTS, "-E", one_of(skipped)))
 
 
 def sanitizer():
