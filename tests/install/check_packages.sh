@@ -19,13 +19,18 @@ mkdir "$folder/archive"
 (cd "$folder/archive" && cmake -E tar xf "$build"/diptych-*.zip)
 for root in "$folder/package/usr" "$folder"/archive/*; do
     for file in bin/diptych share/man/man1/diptych.1 share/diptych/assets/courtyard/court.gltf \
-        share/doc/diptych/LICENSE; do
+        share/doc/diptych/LICENSE share/doc/diptych/copyright; do
         [ -f "$root/$file" ] || fail "$root lacks $file"
     done
     [ ! -e "$root/include" ] && [ ! -e "$root/lib" ] || fail "$root holds headers or libraries"
     "$root/bin/diptych" dump --hash --frames 0:1 | grep -q '^0000 current ' ||
         fail "the program in $root does not draw"
 done
+
+[ "$(dpkg-deb -f "$build"/diptych_*.deb Description | wc -l)" -gt 2 ] ||
+    fail "the package's description is one line"
+dpkg-deb -f "$build"/diptych_*.deb Maintainer | grep -q '^[^<]* <[^ ]*@[^ ]*>$' ||
+    fail "the package's maintainer has no address"
 
 # libc is always installed.
 needed=$(dpkg-deb -f "$build"/diptych_*.deb Depends | tr ',' '\n' | sed 's/^ *//; s/ .*//; /^$/d' |
