@@ -466,6 +466,33 @@ static void malformed_md2_files_are_refused(void **state) {
     free(bytes);
 }
 
+// The last point and the last texture coordinates may be used, those after them may not.
+static void md2_triangles_use_what_is_there(void **state) {
+    (void)state;
+    size_t size_bytes = 0;
+    uint8_t *bytes = fixture_read(gallery_path("crab.md2"), &size_bytes);
+    int32_t counts[2], triangles_at;
+    memcpy(counts, bytes + 24, sizeof counts); // of points and of texture coordinates
+    memcpy(&triangles_at, bytes + 52, sizeof triangles_at);
+    for (int index = 0; index < 6; ++index) {
+        uint16_t used = (uint16_t)counts[index / 3];
+        uint8_t *at = bytes + triangles_at + 2 * index, before[2];
+        memcpy(before, at, 2);
+        memcpy(at, &used, 2);
+        fixture_write("index.md2", bytes, size_bytes);
+        assert_refused(fixture_path("index.md2"), DIP_ERROR_RANGE, "triangle 0 uses");
+        used--;
+        memcpy(at, &used, 2);
+        fixture_write("index.md2", bytes, size_bytes);
+        DipAnimatedModel *model =
+            dip_animated_model_load(fixture_path("index.md2"), NULL, NULL, NULL);
+        assert_non_null(model);
+        dip_animated_model_destroy(&model);
+        memcpy(at, before, 2);
+    }
+    free(bytes);
+}
+
 static void every_cut_is_refused(void **state) {
     (void)state;
     static const size_t md2_header_bytes = 68;
@@ -632,6 +659,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(key_frames_blend_and_repeat),
         cmocka_unit_test(poses_have_the_same_bits_everywhere),
         cmocka_unit_test(malformed_md2_files_are_refused),
+        cmocka_unit_test(md2_triangles_use_what_is_there),
         cmocka_unit_test(every_cut_is_refused),
         cmocka_unit_test(malformed_gltf_files_are_refused),
         cmocka_unit_test(malformed_animations_are_refused),
