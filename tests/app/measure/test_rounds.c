@@ -602,6 +602,31 @@ static void frames_of_every_round_keep_their_ratio(void **state) {
     dip_times_fit_free(&fit);
 }
 
+// Of up to 512 visits, the ratio is Hodges and Lehmann's estimate: the median of the logarithms'
+// means of all pairs. 262 visits have a ratio of 1 and 250 one of 3, so 26 % of the pairs have a
+// mean ratio of 1, 50 % one of the root of 3, and 24 % one of 3. The ratio of more visits is their
+// median.
+static void ratios_of_many_visits_are_known(void **state) {
+    (void)state;
+    enum { FEW = 512, ONES = 262 };
+    static DipTimed list[2 * (FEW + 1)];
+    for (int visits = FEW; visits <= FEW + 1; visits++) {
+        int count = 0;
+        for (int r = 0; r < visits; r++) {
+            for (int s = 0; s < 2; s++) {
+                list[count++] = (DipTimed){
+                    .subject = s, .round = r, .ms = 4.0 * (s == 1 && r >= ONES ? 3.0 : 1.0)};
+            }
+        }
+        const DipTimes times = {list, count, 2, 1, visits, 1, base_of, true};
+        DipTimesFit *fit = dip_times_fit(&times, NULL);
+        assert_non_null(fit);
+        const double expected = visits > FEW ? 1.0 : sqrt(3.0);
+        assert_true(fabs(dip_times_ratio(fit, 1).value - expected) < 1e-9);
+        dip_times_fit_free(&fit);
+    }
+}
+
 static void frames_are_dealt_evenly(void **state) {
     (void)state;
     enum { PATH = 70, DEALT = 16 };
@@ -689,6 +714,7 @@ int main(void) {
         cmocka_unit_test(what_is_not_known_has_no_interval),
         cmocka_unit_test(disturbed_frames_take_no_part),
         cmocka_unit_test(frames_of_every_round_keep_their_ratio),
+        cmocka_unit_test(ratios_of_many_visits_are_known),
         cmocka_unit_test(frames_are_dealt_evenly),
         cmocka_unit_test(student_has_the_published_quantiles),
         cmocka_unit_test(an_estimate_says_how_likely_a_limit_holds),
