@@ -15,8 +15,8 @@ A mutant goes through these stages until one catches it:
 3. hashes: the shipped hashes of whole pictures, if the mutant is in the program that tests them.
 4. folder: the other tests of the nearest folder. Again, only their programs are built.
 5. all: everything is built, and the other unit and picture tests run, slow ones last.
-6. sanitizer: the catalogue with the address and undefined-behaviour sanitizers, also only if the
-   mutant is in its program.
+6. sanitizer: the nearest quick tests and the catalogue again, with the address and
+   undefined-behaviour sanitizers.
 
 A stage runs only the tests that run a program whose bytes changed: the others cannot fail.
 
@@ -312,18 +312,18 @@ class Judge:
         return (BUILD / name).exists() and (BUILD / name).stat().st_mtime_ns > self.begin
 
     def affected(self, tests):
-        """Returns the names of those tests, of a map to their programs, that the change can affect:
-        those that run a program whose bytes changed. The programs must have been built."""
+        """Returns those tests, of a map to their programs, that the change can affect: those that run
+        a program whose bytes changed. The programs must have been built."""
         for name in programs_of(tests):
             if name not in self.changed and self.is_newer(name):
                 self.changed[name] = hashes([name])[name] != self.unchanged.programs[name]
-        return [test for test, programs in tests.items()
-                if any(self.changed.get(program) for program in programs)]
+        return {test: programs for test, programs in tests.items()
+                if any(self.changed.get(program) for program in programs)}
 
     def test(self, tests):
         """Runs those tests that the change can affect. Returns the first that fails, or None."""
-        names = self.affected(tests)
-        return ctest("-R", one_of(names)) if names else None
+        affected = self.affected(tests)
+        return ctest("-R", one_of(affected)) if affected else None
 
     def build(self, *targets):
         """Builds targets, or all without any, and then looks whether the machine code differs.
@@ -360,7 +360,7 @@ class Judge:
             failed = self.differs and tests()
             if failed:
                 return "caught", failed, stage
-        failed = self.is_newer(STABILITY) and sanitizer()
+        failed = sanitizer(self.affected(self.near), self.is_newer(STABILITY))
         return ("caught", failed, "sanitizer") if failed else ("survived", "", "")
 
     def other_tests(self):
@@ -372,17 +372,27 @@ class Judge:
                 ctest("-R", SLOW_TESTS, "-E", one_of(skipped)))
 
 
-def sanitizer():
-    """Runs the catalogue with the address and undefined-behaviour sanitizers,
-    as ./test sanitizers does."""
+def sanitizer(tests, with_catalogue):
+    """Runs tests, which are mapped to their programs, and the catalogue if asked, with the address
+    and undefined-behaviour sanitizers, as ./test sanitizers does. Returns what they report, or None."""
+    targets = [STABILITY] * with_catalogue + programs_of(tests)
+    if not targets:
+        return None
     for command in (["cmake", "--preset", "asan", "-DDIP_WERROR=OFF"],
-                    ["cmake", "--build", "--preset", "asan", "--target", "stability"]):
+                    ["cmake", "--build", "--preset", "asan", "--target", *targets]):
+        if run(command, 1800)[0] != 0:
+            return None
+    tried = [["build/asan/" + STABILITY, "--depth", "short"]] * with_catalogue
+    if tests:
+        tried.append(["ctest", "--test-dir", "build/asan", *CHOICE, "-R", one_of(tests),
+                      "--output-on-failure"])
+    for command in tried:
         code, output = run(command, 1800)
         if code != 0:
-            return None
-    code, output = run(["build/asan/tests/stability/stability", "--depth", "short"], 1800)
-    found = re.findall(r"runtime error: .*|ERROR: AddressSanitizer.*|^\S+ +\S+ +FAILS", output, re.M)
-    return None if code == 0 else "sanitizer: " + (found[0] if found else "exit %s" % code)
+            found = re.findall(r"runtime error: .*|ERROR: AddressSanitizer.*|^\S+ +\S+ +FAILS",
+                               output, re.M)
+            return "sanitizer: " + (found[0] if found else "exit %s" % code)
+    return None
 
 
 def journal_lines(path):
