@@ -4,7 +4,7 @@
 // moves the node or a node above it, or a single pose if no animation does. The node's world
 // transform places the camera; scales are left out of its orientation. Keys are at most 1/120 s
 // apart, and the last key is that of the animation. Orthographic cameras are skipped with a
-// warning. Files of other formats give no cameras.
+// warning. A file may give up to 10,000 paths. Files of other formats give no cameras.
 #ifndef DIP_ASSETS_CAMERAS_H
 #define DIP_ASSETS_CAMERAS_H
 

@@ -19,9 +19,17 @@ static const double max_position_m = 1e9;
 
 enum { MAX_KEYS = 1000000, MAX_CAMERAS = 10000, MIN_PERIOD_NS = 1000 };
 
+// The name of a camera, and a number such that all smaller ones, from 2 on, were taken when they
+// were tried to make this name another one.
+typedef struct Name {
+    const char *text;
+    int number;
+} Name;
+
 struct DipModelCameras {
-    DipAnimatedModel *model; // Owns all memory but this struct.
+    DipAnimatedModel *model; // Owns all texts and keys.
     DipModelCamera *items;
+    Name *names; // Those of the items in alphabetical order, while a file is read.
     int count;
 };
 
@@ -199,25 +207,59 @@ static bool sample_keys(const Source *source, DipModelCamera *camera, bool *ok) 
     return true;
 }
 
-static bool is_taken(const DipModelCameras *cameras, const char *name) {
-    for (int i = 0; i < cameras->count; ++i) {
-        if (strcmp(cameras->items[i].name, name) == 0) {
-            return true;
+// Returns the index of a name, or of the first one after it.
+static int place_of(const DipModelCameras *cameras, const char *name) {
+    int low = 0, high = cameras->count;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (strcmp(cameras->names[middle].text, name) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
         }
     }
-    return false;
+    return low;
 }
 
-// Makes a name that no other camera has: a number follows a name that is taken.
+// Returns the entry of a name, or NULL if no camera has this name.
+static Name *find_name(const DipModelCameras *cameras, const char *name) {
+    const int place = place_of(cameras, name);
+    const bool found = place < cameras->count && strcmp(cameras->names[place].text, name) == 0;
+    return found ? &cameras->names[place] : NULL;
+}
+
+// Makes a name that no other camera has: a number follows a name that is taken. Files with
+// thousands of cameras of one name are read in time, since numbers that were taken are not tried
+// again.
 static const char *free_name(const Source *source, const char *animation) {
     char name[256];
     const int length = snprintf(name, 240, "%s%s%s", source->name, animation ? "/" : "",
                                 animation ? animation : "");
     const size_t end = length < 240 ? (size_t)length : 239;
-    for (int number = 2; is_taken(source->cameras, name); ++number) {
-        snprintf(name + end, sizeof name - end, " %d", number);
+    Name *taken = find_name(source->cameras, name);
+    while (taken) {
+        snprintf(name + end, sizeof name - end, " %d", taken->number);
+        if (!find_name(source->cameras, name)) {
+            break;
+        }
+        ++taken->number;
     }
     return dip_animated_text(source->reader->model, name, sizeof name);
+}
+
+// Adds a camera and its name. Returns false when memory runs out.
+static bool add_camera(DipModelCameras *cameras, const DipModelCamera *camera) {
+    DipModelCamera *items = dip_array_grow(cameras->items, cameras->count, sizeof *items);
+    cameras->items = items ? items : cameras->items;
+    Name *names = dip_array_grow(cameras->names, cameras->count, sizeof *names);
+    cameras->names = names ? names : cameras->names;
+    if (items && names) {
+        const int place = place_of(cameras, camera->name);
+        memmove(names + place + 1, names + place, (size_t)(cameras->count - place) * sizeof *names);
+        names[place] = (Name){camera->name, 2};
+        items[cameras->count++] = *camera;
+    }
+    return items && names;
 }
 
 // Adds the path that the source's tracks make. animation: its name, or NULL.
@@ -237,12 +279,8 @@ static bool add_path(const Source *source, const char *animation) {
     if (!sample_keys(source, &camera, &ok)) {
         return false;
     }
-    DipModelCamera *items = dip_array_grow(cameras->items, cameras->count, sizeof *items);
-    cameras->items = items ? items : cameras->items;
-    if (ok && items) {
-        items[cameras->count++] = camera;
-    }
-    return items || dip_model_out_of_memory(source->reader->gltf.err, source->reader->gltf.path);
+    return !ok || add_camera(cameras, &camera) ||
+           dip_model_out_of_memory(source->reader->gltf.err, source->reader->gltf.path);
 }
 
 static bool is_above(const DipAnimatedModel *model, int ancestor, int node) {
@@ -425,6 +463,8 @@ DipModelCameras *dip_model_cameras_load(const char *file, DipUpAxis up, DipError
     DipError failure = {0};
     model->store->warnings = warnings;
     const bool ok = read_cameras(cameras, &reader, up, &failure);
+    free(cameras->names);
+    cameras->names = NULL;
     dip_gltf_close(&reader.gltf);
     model->store->warnings = NULL;
     if (!ok) {
