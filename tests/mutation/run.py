@@ -50,7 +50,10 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 WORK = TOP / "build" / "mutation"
 TREE = WORK / "tree"
 BUILD = TREE / "build" / "ci"
+# The folders of random mutants, unless others are asked for.
 FOLDERS = ("renderer", "campaths", "config", "assets", "app/measure", "app/control")
+OTHER_FOLDERS = sorted({"app/" + path.parent.name for path in (TOP / "app").glob("*/CMakeLists.txt")}
+                       .difference(FOLDERS))
 # The tests that run last, since most mutants fail a quicker one.
 SLOW_TESTS = "stability_|against_reference|determinism|test_live|error_thread|cli"
 # The choice of ctest among all tests.
@@ -195,7 +198,7 @@ def hashes(objects):
 class Unchanged:
     """What the unchanged tree, which prepare() has built, tells about its files and tests."""
 
-    def __init__(self, head):
+    def __init__(self, head, folders):
         # The objects that are compiled from each source or header, and what their bytes are.
         self.objects = {}
         text = subprocess.check_output(["ninja", "-t", "deps"], cwd=BUILD, text=True)
@@ -210,7 +213,7 @@ class Unchanged:
         self.tests = self.list_tests()
         self.programs = hashes({program for tests in self.tests.values()
                                 for program in programs_of(tests)})
-        self.seconds = self.time_tests(head)
+        self.seconds = self.time_tests(head, {*FOLDERS, *folders})
 
     def list_tests(self):
         """Maps each folder of tests/ to its tests, and each test to the programs of its command.
@@ -231,23 +234,22 @@ class Unchanged:
                 folders.setdefault(os.path.relpath(folder, BUILD), {})[test["name"]] = programs
         return folders
 
-    def time_tests(self, head):
-        """Measures how long the tests that may be the nearest of a file take, once per commit.
-
-        All must succeed. Returns their seconds by name."""
+    def time_tests(self, head, folders):
+        """Measures how long the tests that may be the nearest of a file in some folders take, once per
+        commit. All must succeed. Returns their seconds by name."""
         kept = WORK / "seconds.json"
         if kept.exists():
             entry = json.loads(kept.read_text())
-            if entry["commit"] == head:
+            if entry["commit"] == head and folders <= set(entry.get("folders", FOLDERS)):
                 return entry["seconds"]
         names = [name for folder, tests in self.tests.items() for name in tests
-                 if folder.startswith(tuple("tests/" + start for start in FOLDERS))]
+                 if folder.startswith(tuple("tests/" + start for start in folders))]
         code, output = run_ctest("-R", one_of(names), "-E", SLOW_TESTS)
         if code != 0:
             sys.exit("a test of the unchanged tree fails:\n" + output[-2000:])
         found = re.findall(r"Test +#\d+: (\S+) .*Passed +([\d.]+) sec", output)
         seconds = {name: float(text) for name, text in found}
-        kept.write_text(json.dumps({"commit": head, "seconds": seconds}))
+        kept.write_text(json.dumps({"commit": head, "folders": sorted(folders), "seconds": seconds}))
         return seconds
 
     def near_tests(self, file):
@@ -467,8 +469,9 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=0, help="number of random mutants that change the code")
     parser.add_argument("--seed", type=int, default=1, help="seed of the random choice")
-    parser.add_argument("--folder", action="append", choices=FOLDERS,
-                        help="take random mutants from this folder only; may be given several times")
+    parser.add_argument("--folder", action="append", choices=[*FOLDERS, *OTHER_FOLDERS], metavar="FOLDER",
+                        help="take random mutants from this folder only, such as app/report; may be "
+                        "given several times")
     parser.add_argument("--guards", action="store_true", help="test the mutants of guards.txt")
     parser.add_argument("--report", action="store_true", help="only print what the journal holds")
     parser.add_argument("--check", action="store_true",
@@ -498,7 +501,7 @@ def main():
     if options.list:
         print("\n".join(identity for identity, _, _ in mutants[:count]))
         return
-    test_mutants(mutants, count, options.journal, head, Unchanged(head))
+    test_mutants(mutants, count, options.journal, head, Unchanged(head, options.folder or []))
     report(options.journal)
 
 
