@@ -48,7 +48,9 @@ static int run_with_session(const DipCommandLine *line, const DipSessionDef *def
     DipErrorList faults = {0};
     DipError err = {0};
     const bool opened = dip_session_open(&session, def, &faults);
-    dip_log_errors(&faults);
+    if (!opened || !def->warnings_are_known) {
+        dip_log_errors(&faults);
+    }
     const int open_code = opened ? EXIT_DONE : exit_code_of(&faults);
     dip_error_list_free(&faults);
     if (!opened) {

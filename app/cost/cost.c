@@ -147,9 +147,11 @@ static bool run_command(DipSession *session, const void *options_given, DipError
     return done;
 }
 
-static void describe_cost(const void *arguments, DipSessionDef *def) {
-    def->options = &((const DipCostArguments *)arguments)->session;
+static void describe_cost(const void *all_arguments, DipSessionDef *def) {
+    const DipCostArguments *arguments = all_arguments;
+    def->options = &arguments->session;
     def->scene = true;
+    def->warnings_are_known = arguments->serve;
     def->keep_model = true; // The reference renderer draws the truths from the model.
 }
 

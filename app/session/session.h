@@ -67,6 +67,7 @@ typedef struct DipSessionDef {
     bool scene;                       // True to load the scene's models and the camera paths.
     bool renderers;                   // True to make a renderer for each pane; needs `scene`.
     bool keep_model;                  // True to keep the models' data for the reference renderer.
+    bool warnings_are_known;          // True if the process that started this one has shown them.
     int64_t begin_ns;                 // When the program started, by dip_clock_ns.
 } DipSessionDef;
 

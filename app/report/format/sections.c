@@ -86,14 +86,17 @@ static void write_searched(DipForm *form, const DipCostReport *report) {
                      dip_setting_info(setting)->key);
         }
     }
-    if (predicted->count > 0) {
+    if (settings == 0) {
+        dip_form_fact(form, "Best of", "one combination%s",
+                      idle[0] ? ": no setting changes a picture here" : "");
+    } else if (predicted->count > 0) {
         dip_form_fact(form, "Best of", "%d combinations of %d settings: all predicted, %d measured",
                       dip_cost_searched(report), settings, measured);
     } else {
         dip_form_fact(form, "Best of", "%d combinations of %d settings: all measured", measured,
                       settings);
     }
-    if (idle[0]) {
+    if (idle[0] && settings > 0) {
         dip_form_fact(form, "Not combined", "%s: no step changes a picture here", idle);
     }
 }
@@ -249,10 +252,10 @@ void dip_section_front(DipForm *form, const DipCostReport *report) {
         "change_ms; change_flip; price_ms",
         dip_time_kind_names[choice->candidates.kind]);
     snprintf(caption, sizeof caption,
-             "The Pareto front of %d measured combinations on path %s: no other combination has "
+             "The Pareto front of %d measured combination%s on path %s: no other combination has "
              "less %s time and less FLIP. The FLIP of each is at least 1 %% below that of the line "
              "before, from which it changes.%s",
-             choice->candidates.count, report->paths[0],
+             choice->candidates.count, dip_cost_plural(choice->candidates.count), report->paths[0],
              dip_time_kind_names[choice->candidates.kind],
              choice->knee >= 0 ? " Beyond the knee, more time buys least." : "");
     DIP_FORM_TABLE(form, .id = "pareto-front", .caption = caption, .set = "front",
@@ -353,7 +356,7 @@ void dip_section_misses(DipForm *form, const char *what, const DipCostMisses *mi
 
 void dip_section_predictions(DipForm *form, const DipCostReport *report) {
     const DipCostPredictions *p = &report->predicted;
-    if (p->count == 0) {
+    if (p->count <= 1) {
         return;
     }
     char then[128] = "None of the others was measured afterwards.";

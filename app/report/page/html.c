@@ -172,7 +172,7 @@ static void write_contents(const DipCostReport *report, FILE *out) {
     } parts[] = {
         {has_candidates, "advice", "Best settings for a time budget"},
         {report->choice.candidates.count > 1, "front", "Time against error"},
-        {report->predicted.count > 0, "predicted", "Predicted combinations"},
+        {report->predicted.count > 1, "predicted", "Predicted combinations"},
         {true, "measured", "What was measured"},
         {report->warning_count > 0, "warnings", "Warnings about the scene"},
         {has_candidates && report->rounds > 0, "along", "Time and error along the path"},

@@ -159,7 +159,7 @@ static void write_predictions(DipForm *form, const DipCostReport *report,
     DipCostLine lines[DIP_CANDIDATES_LISTED];
     char caption[300];
     const bool is_part = listed->count < dip_cost_searched(report);
-    if (report->predicted.count == 0) {
+    if (report->predicted.count <= 1) { // Nothing but the baseline is not a prediction.
         return;
     }
     for (int i = 0; i < listed->count; i++) {

@@ -76,6 +76,14 @@ def measure(diptych, scene, out, *more):
                "--pictures", "none", "--cache", "truths", *more)[0]
 
 
+def check_times(diptych, scene, warnings):
+    """Measures times, too, for which the program starts itself: each warning is shown once."""
+    _, told = run(diptych, "cost", *scene, "--out", "timed", "--size", "24x18", "--samples", "4",
+                  "--places", "1", "--burst", "1", "--quick", "--combine", "aa", "--pictures", "none",
+                  "--cache", "truths")
+    check("the warnings of a run with times", told == warnings, told)
+
+
 def check_forms(name, text, warnings):
     """Checks all files of a report and its text against the warnings."""
     report = load(f"{name}/cost.json")
@@ -148,6 +156,7 @@ def main():
         check_forms(name, measure(diptych, ["--model", model], name), warnings)
     with open("c-hostile/cost.html", encoding="utf-8") as file:
         check("no script of the model's runs", "<script>alert" not in file.read())
+    check_times(diptych, ["--model", f"{data}/gltf/losses.gltf"], losses)
     check_merge(diptych, ["--model", f"{data}/gltf/losses.gltf"], losses)
     print(f"{failures} failures")
     sys.exit(failures > 0)
