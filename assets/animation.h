@@ -121,6 +121,11 @@ DIP_API DipAnimatedModel *dip_animated_model_load(const char *file,
                                                   const struct DipImporter *importer,
                                                   DipErrorList *warnings, DipError *err);
 
+// Loads a model like dip_animated_model_load, but reads none of its pictures, which may take most
+// of the time: all materials keep their base colours, and the model has no textures.
+DIP_API DipAnimatedModel *dip_animated_model_load_shapes(const char *file, DipErrorList *warnings,
+                                                         DipError *err);
+
 // Destroys the model and sets the pointer to NULL. Accepts a pointer to NULL. Poses of the model
 // must be destroyed before.
 DIP_API void dip_animated_model_destroy(DipAnimatedModel **model);

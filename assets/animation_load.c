@@ -37,9 +37,8 @@ static bool read_model(DipAnimatedModel *model, DipError *err) {
     return true;
 }
 
-DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
-                                          DipErrorList *warnings, DipError *err) {
-    DIP_FP_MODE_SCOPE();
+static DipAnimatedModel *load(const char *file, const struct DipImporter *importer,
+                              bool shapes_only, DipErrorList *warnings, DipError *err) {
     DipAnimatedModel *model = dip_animated_model_make(file);
     if (!model) {
         dip_model_out_of_memory(err, file);
@@ -47,6 +46,7 @@ DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImpo
     }
     model->store->warnings = warnings;
     model->importer = importer;
+    model->shapes_only = shapes_only;
     if (!read_model(model, err)) {
         dip_animated_model_destroy(&model);
         return NULL;
@@ -54,4 +54,16 @@ DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImpo
     model->store->warnings = NULL;
     model->importer = NULL;
     return model;
+}
+
+DipAnimatedModel *dip_animated_model_load(const char *file, const struct DipImporter *importer,
+                                          DipErrorList *warnings, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    return load(file, importer, false, warnings, err);
+}
+
+DipAnimatedModel *dip_animated_model_load_shapes(const char *file, DipErrorList *warnings,
+                                                 DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    return load(file, NULL, true, warnings, err);
 }

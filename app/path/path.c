@@ -3,10 +3,8 @@
 // another format.
 #include "app/path/path.h"
 
-#include "app/cli/program_file.h"
 #include "assets/animation.h"
 #include "assets/cameras.h"
-#include "assets/importer.h"
 #include "campaths/campath.h"
 #include "renderer/base/assert.h"
 
@@ -65,9 +63,7 @@ static void print_model(const DipAnimatedDef *def, const DipModelCamera *cameras
 }
 
 static bool run_model_info(const char *file, DipError *err) {
-    // Another process of this program decodes the pictures.
-    const DipImporter importer = {.program = dip_program_file(), .command = "import"};
-    DipAnimatedModel *model = dip_animated_model_load(file, &importer, NULL, err);
+    DipAnimatedModel *model = dip_animated_model_load_shapes(file, NULL, err);
     DipModelCameras *cameras = model ? dip_model_cameras_load(file, DIP_UP_auto, NULL, err) : NULL;
     const bool ok = cameras != NULL;
     if (ok) {

@@ -93,6 +93,10 @@ bool dip_animated_add_picture(DipAnimatedModel *model, const uint8_t *bytes, siz
                               const char *name, int *texture, DipError *err) {
     DipPicture picture;
     DipError why = {0};
+    if (model->shapes_only) {
+        *texture = DIP_NO_TEXTURE;
+        return true;
+    }
     const bool decoded = dip_picture_decode(bytes, size_bytes, name, &picture, &why);
     return add_texture(model, decoded, &picture, name, &why, texture, err);
 }
@@ -101,6 +105,10 @@ bool dip_animated_add_picture_file(DipAnimatedModel *model, const char *picture_
                                    DipError *err) {
     DipPicture picture;
     DipError why = {0};
+    if (model->shapes_only) {
+        *texture = DIP_NO_TEXTURE;
+        return true;
+    }
     char *found = dip_model_find_file(model->path, picture_path);
     const char *name = found ? dip_animated_text(model, found, strlen(found)) : NULL;
     if (!name) {

@@ -31,6 +31,7 @@ struct DipAnimatedModel {
     DipModel *store; // Owns all memory and collects the warnings.
     const char *path;
     const struct DipImporter *importer; // Used only during the load.
+    bool shapes_only;                   // Pictures are not read.
     size_t allocated_bytes;
     size_t most_bytes; // The limit of allocated_bytes.
     bool too_large;    // An allocation would have exceeded the limit.

@@ -626,6 +626,34 @@ static void pictures_can_be_read_in_the_importer(void **state) {
     dip_animated_model_destroy(&there);
 }
 
+static void shapes_are_read_without_pictures(void **state) {
+    (void)state;
+    for (int f = 0; f < 2; ++f) {
+        const char *file = gallery_path(f > 0 ? "pump.glb" : "crab.md2");
+        DipErrorList warnings = {0};
+        DipAnimatedModel *whole = load(file);
+        DipAnimatedModel *shapes = dip_animated_model_load_shapes(file, &warnings, NULL);
+        assert_non_null(shapes);
+        const DipAnimatedDef *a = dip_animated_model_def(whole);
+        const DipAnimatedDef *b = dip_animated_model_def(shapes);
+        assert_true(f > 0 || a->texture_count > 0); // The skin of the crab.
+        assert_true(b->texture_count == 0 && warnings.count == 0);
+        assert_int_equal(a->material_count, b->material_count);
+        for (int i = 0; i < b->material_count; ++i) {
+            assert_int_equal(b->materials[i].colour_texture, DIP_NO_TEXTURE);
+        }
+        assert_int_equal(a->animation_count, b->animation_count);
+        assert_int_equal(a->mesh_count, b->mesh_count);
+        for (int i = 0; i < b->mesh_count; ++i) {
+            const DipAnimatedMesh *x = &a->meshes[i], *y = &b->meshes[i];
+            assert_int_equal(x->vertex_count, y->vertex_count);
+            assert_memory_equal(x->positions, y->positions, 12 * (size_t)x->vertex_count);
+        }
+        dip_animated_model_destroy(&whole);
+        dip_animated_model_destroy(&shapes);
+    }
+}
+
 static void a_missing_skin_gives_a_warning(void **state) {
     (void)state;
     size_t size_bytes = 0;
@@ -664,6 +692,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(malformed_gltf_files_are_refused),
         cmocka_unit_test(malformed_animations_are_refused),
         cmocka_unit_test(pictures_can_be_read_in_the_importer),
+        cmocka_unit_test(shapes_are_read_without_pictures),
         cmocka_unit_test(a_missing_skin_gives_a_warning),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
