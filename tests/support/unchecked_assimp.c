@@ -14,6 +14,12 @@
     }
 UNCHECKED(int, aiIsExtensionSupported, (const char *extension), (extension))
 UNCHECKED(const void *, aiImportFile, (const char *file, unsigned flags), (file, flags))
+UNCHECKED(const void *, aiImportFileExWithProperties,
+          (const char *file, unsigned flags, void *files, const void *properties),
+          (file, flags, files, properties))
+UNCHECKED(const void *, aiImportFileFromMemory,
+          (const char *bytes, unsigned size_bytes, unsigned flags, const char *format),
+          (bytes, size_bytes, flags, format))
 UNCHECKED(const void *, aiApplyPostProcessing, (const void *scene, unsigned flags), (scene, flags))
 
 enum { STRING_BYTES = 1028 }; // Size of assimp's struct aiString.
