@@ -201,8 +201,8 @@ static void bgra_texels_are_reordered(void **state) {
     dip_picture_free(&picture);
 }
 
-// The data of this PNG of 8x8 pixels is cut off. stb_image reads zeros beyond its end, which its
-// code makes bytes of, and would unpack 2 GB.
+// The data of this PNG of 8x8 pixels is cut off. stb_image 2.27 reads zeros beyond its end, which its
+// code makes bytes of, and would unpack 2 GB. Version 2.30 notices the end by itself.
 static void endless_data_of_a_png_is_refused(void **state) {
     (void)state;
     static const uint8_t file[] = {
@@ -223,8 +223,9 @@ static void endless_data_of_a_png_is_refused(void **state) {
     DipPicture picture;
     DipError err = {0};
     assert_false(dip_picture_decode(file, sizeof file, "endless", &picture, &err));
-    assert_int_equal(err.code, DIP_ERROR_TRUNCATED);
-    assert_non_null(strstr(err.message, "longer than its pixels"));
+    const bool noticed_here = strstr(err.message, "longer than its pixels") != NULL;
+    assert_int_equal(err.code, noticed_here ? DIP_ERROR_TRUNCATED : DIP_ERROR_FORMAT);
+    assert_true(noticed_here || strstr(err.message, "cannot be read: "));
 }
 
 static void errors_say_what_is_wrong_with_a_file(void **state) {

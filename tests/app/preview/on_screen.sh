@@ -45,6 +45,11 @@ found() {
     [ -n "$window" ]
 }
 
+# The keys F1 and F12 by their numbers on a keyboard of X. xdotool presses Alt with them if they are
+# named, where xkeyboard-config 2.48 describes the keyboard.
+key_f1=67
+key_f12=96
+
 deviation() { # prints the spread of a picture's grey values: 0 for one colour, 1000 at most
     convert "$1" -colorspace Gray -format '%[fx:int(1000*standard_deviation)]' info:
 }

@@ -101,9 +101,9 @@ await "the free camera moves" left_changed before.bmp
 xdotool keyup w
 await "the released camera stands still" stands_still
 cp left.bmp before.bmp
-xdotool key F1
+xdotool key $key_f1
 await "the help shows" left_changed before.bmp
-xdotool key F1
+xdotool key $key_f1
 await "the help goes away" left_same before.bmp
 cp dock.bmp settings.bmp
 xdotool key r
@@ -112,7 +112,7 @@ xdotool key u
 await "the costs sheet says how to make a report" left_changed before.bmp
 xdotool key u
 await "the costs go away" left_same before.bmp
-xdotool key F12
+xdotool key $key_f12
 await "a screenshot is written" screenshot_there
 [ "$(identify -format '%wx%h' diptych-0001.png)" = 1282x720 ] || fail "the screenshot has the wrong size"
 

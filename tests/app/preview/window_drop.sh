@@ -13,7 +13,7 @@ await "the window opens" found Diptych
 
 # shows TEXT: asks for a screenshot and looks for the text in the newest one that exists.
 shows() {
-    xdotool key --window "$window" F12
+    xdotool key --window "$window" $key_f12
     sleep 0.3
     grep -qa "$1" "$(ls diptych-*.png 2>/dev/null | tail -n 1)" 2>/dev/null
 }
