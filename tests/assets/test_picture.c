@@ -201,8 +201,8 @@ static void bgra_texels_are_reordered(void **state) {
     dip_picture_free(&picture);
 }
 
-// The data of this PNG of 8x8 pixels is cut off. stb_image 2.27 reads zeros beyond its end, which its
-// code makes bytes of, and would unpack 2 GB. Version 2.30 notices the end by itself.
+// The data of this PNG of 8x8 pixels is cut off. stb_image 2.27 reads zeros beyond its end, which
+// its code makes bytes of, and would unpack 2 GB. Version 2.30 notices the end by itself.
 static void endless_data_of_a_png_is_refused(void **state) {
     (void)state;
     static const uint8_t file[] = {
