@@ -12,10 +12,10 @@
 // Each stage of a frame (DipCostStage) has its own terms. A term is one kind of work. Its amount
 // comes from the exact counters of a frame and from the settings. No counter tells which reads miss
 // the processor's caches. Reads that miss them more often than others therefore have terms of their
-// own: reads that may use the largest mip levels (miplod=high-quality, sharp and sharper), reads of
-// uncompressed textures, probes of advanced AF, and texels divided by the render scale. (The
-// smaller the drawn picture, the farther apart its pixels lie on a surface, and the fewer texels
-// they share.)
+// own: reads of uncompressed textures, probes of advanced AF, and texels times the distance of
+// neighbouring pixels on a surface, in texels of the level that they read. (The farther apart the
+// pixels lie, the fewer texels they share. A small render scale sets them apart, and so does a bias
+// towards larger levels: miplod=sharp and sharper, or taa=history.)
 enum { DIP_COST_MAX_TERMS = 64 }; // Greatest number of terms of one stage.
 
 int dip_cost_term_count(int stage);

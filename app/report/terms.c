@@ -18,7 +18,8 @@ typedef struct Work {
     double covers;      // 1 if alpha decides how many samples a clipped surface covers.
     double anisotropic; // 1 with anisotropic filtering.
     double exact;       // 1 with advanced AF.
-    double full_levels; // 1 if miplod has no bias towards smaller mip levels.
+    double apart;       // Distance of neighbouring pixels on a surface, in texels of the mip level
+                        // that they read, relative to a frame of scale 1 without biases.
     double raw;         // 1 if colour textures are not compressed.
     double advanced;    // 1 with opt=advanced.
     double scaled;      // 1 if a larger picture is drawn and averaged.
@@ -73,7 +74,7 @@ typedef struct Work {
     X("batch of fragments", C(shader_batches))                                                     \
     X("texture probe", C(texture_probes) - C(clip_probes))                                         \
     X("texel fetched", C(texels_fetched))                                                          \
-    X("texel fetched, divided by the render scale", C(texels_fetched) / w->scale)                  \
+    X("texel fetched, times the distance of pixels", C(texels_fetched) * w->apart)                 \
     X("fragment with a normal map", C(fragments_normal_mapped))                                    \
     X("fragment of metal and gloss", C(fragments_pbr))                                             \
     X("fragment with a clear coat", C(fragments_coated))                                           \
@@ -88,7 +89,6 @@ typedef struct Work {
     X("sample shown", C(samples_shown))                                                            \
     X("fragment clip tested", C(fragments_clip_tested))                                            \
     X("texel fetched from compressed textures", C(texels_fetched) * (1.0 - w->raw))                \
-    X("texel fetched from all mip levels", C(texels_fetched) * w->full_levels)                     \
     X("texel fetched from uncompressed textures", C(texels_fetched) * w->raw)                      \
     X("texture probe with opt=advanced", (C(texture_probes) - C(clip_probes)) * w->advanced)       \
     X("texture probe of advanced AF", (C(texture_probes) - C(clip_probes)) * w->exact)
@@ -149,7 +149,6 @@ const char *dip_cost_term_name(int stage, int term) {
 }
 
 static Work work_of(const double counters[DIP_COUNTER_COUNT], const DipQuality *quality) {
-    const int level = quality->step[DIP_SETTING_MIPLOD];
     const int post = quality->step[DIP_SETTING_POST];
     const double samples = dip_quality_sample_count(quality);
     const double scale = dip_quality_scale(quality);
@@ -165,7 +164,8 @@ static Work work_of(const double counters[DIP_COUNTER_COUNT], const DipQuality *
         .covers = dip_quality_covers_by_alpha(quality),
         .anisotropic = dip_quality_max_anisotropy(quality) > 1,
         .exact = quality->step[DIP_SETTING_AAF] != 0,
-        .full_levels = level >= DIP_MIPLOD_HIGH_QUALITY,
+        // A scale below 1 is part of the bias; that of a larger picture is not.
+        .apart = exp2(-dip_quality_bias_lod8(quality) / 256.0) / fmax(1.0, scale),
         .raw = !dip_quality_compresses(quality),
         .advanced = quality->step[DIP_SETTING_OPT] == DIP_OPT_ADVANCED,
         .scaled = scale > 1.0,

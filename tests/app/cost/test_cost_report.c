@@ -223,8 +223,8 @@ static void a_few_frames_that_waited_are_left_out(void **state) {
     dip_cost_report_free(&report);
 }
 
-// Times are computed from work counters and prices, with 1 % of noise, for two render scales. The
-// fit finds the prices again.
+// Times are computed from work counters and prices, with 1 % of noise, for settings whose pixels
+// lie differently far apart on surfaces. The fit finds the prices again.
 static void the_fit_finds_the_prices(void **state) {
     (void)state;
     enum { ROWS = 60 };
@@ -235,13 +235,22 @@ static void the_fit_finds_the_prices(void **state) {
     for (int r = 0; r < ROWS; r++) {
         DipCostRow *row = &report.rows[r];
         row->quality = dip_quality_default();
-        assert_true(dip_quality_parse(r % 2 ? "scale=1/2" : "scale=1", &row->quality, NULL));
+        static const struct {
+            const char *settings;
+            double apart;
+        } ways[] = {{"scale=1", 1.0},
+                    {"scale=1/2", 2.0},
+                    {"taa=history,miplod=sharper", 4.0},
+                    {"scale=1/2,miplod=performance", 1.0},
+                    {"scale=2", 0.5}};
+        assert_true(dip_quality_parse(ways[r % 5].settings, &row->quality, NULL));
         for (int c = 0; c < DIP_COUNTER_COUNT; c++) {
             row->counters[c] = 1e6 * random_share();
         }
-        // A texel takes 3 ns, and 2 ns divided by the render scale.
-        const double ns = 5e5 + 20.0 * row->counters[DIP_COUNTER_fragments_shaded] +
-                          (r % 2 ? 7.0 : 5.0) * row->counters[DIP_COUNTER_texels_fetched];
+        // A texel takes 3 ns, and 2 ns times the distance of pixels.
+        const double ns =
+            5e5 + 20.0 * row->counters[DIP_COUNTER_fragments_shaded] +
+            (3.0 + 2.0 * ways[r % 5].apart) * row->counters[DIP_COUNTER_texels_fetched];
         row->stage_ms[DIP_COST_STAGE_shading] = 1e-6 * ns * (0.99 + 0.02 * random_share());
     }
     const DipCostFit fit = dip_cost_fit(&report);
@@ -253,7 +262,7 @@ static void the_fit_finds_the_prices(void **state) {
             expect_near(fit.ns[i], 20.0, 1.0);
         } else if (strcmp(fit.names[i], "texel fetched") == 0) {
             expect_near(fit.ns[i], 3.0, 0.6);
-        } else if (strcmp(fit.names[i], "texel fetched, divided by the render scale") == 0) {
+        } else if (strcmp(fit.names[i], "texel fetched, times the distance of pixels") == 0) {
             expect_near(fit.ns[i], 2.0, 0.4);
         }
         assert_true(fit.ns[i] >= 0.0);
