@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "rotate.h"
+
 static const double pi = 3.14159265358979323846;
 enum { HEIGHT = 480 };
 static const double distance_m = 7.0;
@@ -19,19 +21,6 @@ static const DipPose poses[] = {
     {{3.0, -2.0, 9.0}, {0.5, 0.5, 0.5, 0.5}, 40.0},
     {{-100.0, 1.7, 4.0}, {0.36, 0.48, -0.48, 0.64}, 90.0}, // Of length 1.
 };
-
-// Sets `to` to a vector that is rotated by a quaternion of length 1, by the columns of its matrix.
-static void rotate(const double q[4], const double v[3], double to[3]) {
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double rows[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)},
-    };
-    for (int i = 0; i < 3; i++) {
-        to[i] = rows[i][0] * v[0] + rows[i][1] * v[1] + rows[i][2] * v[2];
-    }
-}
 
 // Sets `world` to the point that a pose sees at (x, y), in pixels right of and above the picture's
 // middle, and at distance_m along the direction that it looks in.

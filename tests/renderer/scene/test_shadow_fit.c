@@ -15,6 +15,8 @@
 
 #include <cmocka.h>
 
+#include "rotate.h"
+
 enum { CAMERAS = 4000, MAP = 1024, SIZE = 64, POINTS = 24 };
 
 static const double half_size[3] = {1.0, 0.7, 1.3};
@@ -52,19 +54,6 @@ static void make_box(DipTestScene *scene) {
     for (int i = 0; i < 36; i++) {
         static const uint32_t quads[2][6] = {{0, 2, 1, 0, 3, 2}, {0, 1, 2, 0, 2, 3}};
         mesh.indices[i] = quads[i / 6 % 2][i % 6] + 4 * (uint32_t)(i / 6);
-    }
-}
-
-// Sets `to` to a vector that is rotated by a quaternion of length 1.
-static void rotate(const double q[4], const double v[3], double to[3]) {
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double rows[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-        {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-        {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)},
-    };
-    for (int i = 0; i < 3; i++) {
-        to[i] = rows[i][0] * v[0] + rows[i][1] * v[1] + rows[i][2] * v[2];
     }
 }
 
