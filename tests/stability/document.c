@@ -1,7 +1,9 @@
 // Writes the rows as Markdown tables, one per topic.
 #include "tests/stability/document.h"
 
+#include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_LINE = 1024 };
@@ -22,34 +24,47 @@ static const char *const introduction =
     "tests: `build/ci/tests/stability/stability --document docs/stability.md`.\n"
     "\n"
     "Each row states a promise, the independent truth that the test compares Diptych with, and\n"
-    "the greatest error that the test accepts. The last column has the greatest error that the\n"
-    "test found. A row has several errors if its code is compiled once per instruction set, and\n"
-    "the instruction sets differ. `./test` measures every row; `diptych verify` measures every\n"
-    "row with fewer cases. Rows N1 to N56 come from a list of cases that are known to be hard in\n"
-    "this field. Rows A1 and up were added after attacks on Diptych.\n";
+    "the greatest error that the test accepts. Then come the number of cases that the test\n"
+    "compares, with each instruction set, and the greatest error that it found. A row has several\n"
+    "errors if its code is compiled once per instruction set, and the instruction sets differ.\n"
+    "`./test` measures every row, and fails if a row compares fewer cases than stand here.\n"
+    "`diptych verify` measures every row with fewer cases. Rows N1 to N56 come from a list of\n"
+    "cases that are known to be hard in this field. Rows A1 and up were added after attacks on\n"
+    "Diptych.\n";
 
-static void write_errors(FILE *file, const StabilityErrors *errors) {
+static void write_errors(FILE *file, const StabilityMeasured *measured) {
     bool same = true;
     int first = -1;
     for (int i = 0; i < DIP_ISA_COUNT; i++) {
-        if (errors->known[i]) {
-            same = same && (first < 0 || errors->worst[i] == errors->worst[first]);
+        if (measured->known[i]) {
+            same = same && (first < 0 || measured->worst[i] == measured->worst[first]);
             first = first < 0 ? i : first;
         }
     }
     if (first < 0) {
         fputs("not measured", file);
     } else if (same) {
-        fprintf(file, "%.3g", errors->worst[first]);
+        fprintf(file, "%.3g", measured->worst[first]);
     } else {
         const char *between = "";
         for (int i = 0; i < DIP_ISA_COUNT; i++) {
-            if (errors->known[i]) {
-                fprintf(file, "%s%s %.3g", between, dip_isa_name((DipIsa)i), errors->worst[i]);
+            if (measured->known[i]) {
+                fprintf(file, "%s%s %.3g", between, dip_isa_name((DipIsa)i), measured->worst[i]);
                 between = ", ";
             }
         }
     }
+}
+
+// Returns the least number of cases that an instruction set compared.
+static uint64_t least_cases(const StabilityMeasured *measured) {
+    uint64_t least = UINT64_MAX;
+    for (int i = 0; i < DIP_ISA_COUNT; i++) {
+        if (measured->known[i] && measured->cases[i] < least) {
+            least = measured->cases[i];
+        }
+    }
+    return least == UINT64_MAX ? 0 : least;
 }
 
 // Formats the columns that --check compares.
@@ -58,38 +73,44 @@ static void format_row(const StabilityRow *row, char line[MAX_LINE]) {
              row->bound, row->unit);
 }
 
-static void write_topic(FILE *file, const StabilityTopic *topic, const StabilityErrors *errors) {
+static void write_topic(FILE *file, const StabilityTopic *topic,
+                        const StabilityMeasured *measured) {
     fprintf(file, "\n## %s\n\n", topic->title);
-    fputs("| row | promise | truth | bound | greatest error |\n|---|---|---|---|---|\n", file);
+    fputs("| row | promise | truth | bound | cases | greatest error |\n"
+          "|---|---|---|---|---|---|\n",
+          file);
     for (size_t r = 0; r < topic->row_count; r++) {
         char line[MAX_LINE];
         format_row(&topic->rows[r], line);
-        fprintf(file, "%s ", line);
-        write_errors(file, &errors[r]);
+        fprintf(file, "%s %" PRIu64 " | ", line, least_cases(&measured[r]));
+        write_errors(file, &measured[r]);
         fputs(" |\n", file);
     }
 }
 
-bool stability_document_write(const char *path, const StabilityErrors *errors) {
+bool stability_document_write(const char *path, const StabilityMeasured *measured) {
     FILE *file = fopen(path, "w");
     if (!file) {
         return false;
     }
     fputs(introduction, file);
     for (size_t t = 0; t < stability_topic_count; t++) {
-        write_topic(file, stability_topics[t], errors);
-        errors += stability_topics[t]->row_count;
+        write_topic(file, stability_topics[t], measured);
+        measured += stability_topics[t]->row_count;
     }
     fprintf(file, "\n%s", stability_not_promised);
     const bool written = !ferror(file);
     return fclose(file) == 0 && written;
 }
 
-// Returns whether a line of the page begins with the columns of a row.
-static bool line_has_row(const char *line, const StabilityRow *row) {
+// Reads the number of cases from a line of the page that begins with the columns of a row. Returns
+// false for another line, or if there is no number above 0.
+static bool read_row(const char *line, const StabilityRow *row, uint64_t *cases) {
     char expected[MAX_LINE];
     format_row(row, expected);
-    return strncmp(line, expected, strlen(expected)) == 0;
+    const size_t length = strlen(expected);
+    return strncmp(line, expected, length) == 0 &&
+           sscanf(line + length, "%" SCNu64 " |", cases) == 1 && *cases > 0;
 }
 
 static bool is_row_line(const char *line) {
@@ -104,7 +125,7 @@ static const StabilityRow *row_at(size_t index) {
     return t < stability_topic_count ? &stability_topics[t]->rows[index] : NULL;
 }
 
-bool stability_document_check(const char *path) {
+bool stability_document_read_cases(const char *path, uint64_t *cases) {
     FILE *file = fopen(path, "r");
     if (!file) {
         fprintf(stderr, "%s: cannot be read\n", path);
@@ -115,11 +136,12 @@ bool stability_document_check(const char *path) {
     bool agrees = true;
     while (agrees && fgets(line, sizeof line, file)) {
         if (is_row_line(line)) {
-            const StabilityRow *row = row_at(index++);
-            agrees = row && line_has_row(line, row);
+            const StabilityRow *row = row_at(index);
+            agrees = row && read_row(line, row, &cases[index]);
+            index++;
             if (!agrees) {
-                fprintf(stderr, "%s: expected row %s, found %s", path, row ? row->id : "(none)",
-                        line);
+                fprintf(stderr, "%s: expected row %s and its number of cases, found %s", path,
+                        row ? row->id : "(none)", line);
             }
         }
     }
@@ -129,5 +151,12 @@ bool stability_document_check(const char *path) {
                 stability_row_count());
         return false;
     }
+    return agrees;
+}
+
+bool stability_document_check(const char *path) {
+    uint64_t *cases = calloc(stability_row_count(), sizeof *cases);
+    const bool agrees = cases && stability_document_read_cases(path, cases);
+    free(cases);
     return agrees;
 }

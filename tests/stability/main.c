@@ -3,6 +3,7 @@
 #include "renderer/catalogue/shipped_hashes.h"
 #include "renderer/catalogue/stability.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +24,8 @@ static const char *const usage =
     "  --document FILE    Also write the catalogue with the errors measured, as Markdown.\n"
     "  --check FILE       Only compare the rows with a file that --document wrote. Fails if a\n"
     "                     promise, a truth or a bound differs.\n"
+    "  --cases FILE       Also compare the number of cases of each row with the number in a file\n"
+    "                     that --document wrote. Fails if a row has fewer. Needs the depth full.\n"
     "  --print-hashes     Print the table of shipped hashes (shipped_list.inc) as this build "
     "draws\n"
     "                     the pictures.\n";
@@ -38,6 +41,7 @@ typedef struct Options {
     int threads;
     const char *document;
     const char *check;
+    const char *cases;
 } Options;
 
 static bool parse_depth(const char *text, StabilityDepth *depth) {
@@ -73,6 +77,8 @@ static bool parse_value(const char *name, const char *value, Options *options) {
         options->document = value;
     } else if (strcmp(name, "--check") == 0) {
         options->check = value;
+    } else if (strcmp(name, "--cases") == 0) {
+        options->cases = value;
     } else {
         return false;
     }
@@ -96,6 +102,10 @@ static bool parse_options(int argc, char **argv, Options *options) {
         } else {
             i++;
         }
+    }
+    if (options->cases && options->depth != STABILITY_FULL) {
+        fprintf(stderr, "stability: --cases needs the depth full\n");
+        return false;
     }
     return true;
 }
@@ -128,9 +138,10 @@ static void print_result(const StabilityRow *row, const StabilityRun *run, bool 
     fflush(stdout);
 }
 
-// Measures a row with each instruction set that the options choose. Returns the number of failures.
+// Measures a row with each instruction set that the options choose. least: number of cases that it
+// must compare. Returns the number of failures.
 static int measure_row(const Options *options, const StabilityRow *row, DipPool *pool,
-                       StabilityErrors *errors) {
+                       uint64_t least, StabilityMeasured *measured) {
     int failures = 0;
     for (int i = 0; i < DIP_ISA_COUNT; i++) {
         const DipIsa isa = (DipIsa)i;
@@ -142,49 +153,60 @@ static int measure_row(const Options *options, const StabilityRow *row, DipPool 
         }
         StabilityRun run = {
             .isa = isa, .pool = pool, .depth = options->depth, .seed = options->seed};
-        const bool holds = stability_measure(row, &run);
+        bool holds = stability_measure(row, &run);
+        if (holds && run.case_count < least) {
+            stability_break(&run, "the row compared %" PRIu64 " cases, expected %" PRIu64,
+                            run.case_count, least);
+            holds = false;
+        }
         failures += !holds;
-        errors->known[i] = !run.broken;
-        errors->worst[i] = run.worst;
+        measured->known[i] = !run.broken;
+        measured->worst[i] = run.worst;
+        measured->cases[i] = run.case_count;
         print_result(row, &run, holds);
     }
     return failures;
 }
 
-static int measure_rows(const Options *options, DipPool *pool, StabilityErrors *errors) {
+// least: the number of cases that each row must compare.
+static int measure_rows(const Options *options, DipPool *pool, const uint64_t *least,
+                        StabilityMeasured *measured) {
     int failures = 0;
-    int measured = 0;
+    int count = 0;
     size_t index = 0;
     for (size_t t = 0; t < stability_topic_count; t++) {
         const StabilityTopic *topic = stability_topics[t];
         for (size_t r = 0; r < topic->row_count; r++, index++) {
             if (is_chosen(options, topic, &topic->rows[r])) {
-                failures += measure_row(options, &topic->rows[r], pool, &errors[index]);
-                measured++;
+                failures +=
+                    measure_row(options, &topic->rows[r], pool, least[index], &measured[index]);
+                count++;
             }
         }
     }
-    printf("%d rows measured, %d measurements outside their bounds\n", measured, failures);
-    return measured ? failures : 1;
+    printf("%d rows measured, %d measurements outside their bounds\n", count, failures);
+    return count ? failures : 1;
 }
 
 static int run(const Options *options) {
     DipError err;
     DipPool *pool = dip_pool_create(options->threads, &err);
-    StabilityErrors *errors = calloc(stability_row_count(), sizeof *errors);
+    StabilityMeasured *measured = calloc(stability_row_count(), sizeof *measured);
+    uint64_t *least = calloc(stability_row_count(), sizeof *least);
     int failures = 1;
-    if (pool && errors && options->print_hashes) {
+    if (!pool || !measured || !least) {
+        fprintf(stderr, "stability: no memory or no threads\n");
+    } else if (options->print_hashes) {
         failures = !stability_print_hashes(pool);
-    } else if (pool && errors) {
-        failures = measure_rows(options, pool, errors);
-        if (options->document && !stability_document_write(options->document, errors)) {
+    } else if (!options->cases || stability_document_read_cases(options->cases, least)) {
+        failures = measure_rows(options, pool, least, measured);
+        if (options->document && !stability_document_write(options->document, measured)) {
             fprintf(stderr, "stability: cannot write %s\n", options->document);
             failures++;
         }
-    } else {
-        fprintf(stderr, "stability: no memory or no threads\n");
     }
-    free(errors);
+    free(least);
+    free(measured);
     dip_pool_destroy(&pool);
     return failures != 0;
 }
