@@ -137,6 +137,14 @@ static inline double *dip_times_moves(const DipTimesFit *fit, int subject, int u
            ((size_t)subject * (size_t)fit->units + (size_t)unit) * DIP_TIMES_VALUE_COUNT;
 }
 
+// Returns the variance of the noise in the levels of single frames, without the noise that all
+// frames have in common. Computes it from how far levels move when a unit is left out (the
+// jackknife), and halves the result: for a median, the jackknife's variance is twice too large
+// (Efron 1982, The Jackknife, the Bootstrap and Other Resampling Plans, chapter 3), and a robust
+// fit to few cells is like a median. levels: `frames` levels of all units, then those without each
+// unit in turn; NAN: not known.
+double dip_times_noise_of_levels(const double *levels, int frames, int units);
+
 // Replaces values that are NAN: interpolates linearly between the nearest known values, and repeats
 // the first and last known values at the ends.
 void dip_times_fill_gaps(double *values, int count);

@@ -112,20 +112,14 @@ static void fit_levels(DipTimesWork *w, int left_out, double *level) {
     }
 }
 
-// Returns the variance of the noise in the levels of single frames, without the noise that all
-// frames have in common. Computes it from how far levels move when a unit is left out (the
-// jackknife), and halves the result: for a median, the jackknife's variance is twice too large
-// (Efron 1982, The Jackknife, the Bootstrap and Other Resampling Plans, chapter 3), and a robust
-// fit to few cells is like a median.
-static double noise_of_levels(const DipTimesWork *w) {
-    const int frames = w->times->frames, units = w->fit->units;
+double dip_times_noise_of_levels(const double *levels, int frames, int units) {
     double squares = 0.0;
     for (int unit = 0; unit < units; unit++) {
-        const double *without = w->level + (unit + 1) * frames;
+        const double *without = levels + (unit + 1) * frames;
         double mean = 0.0, sum = 0.0;
         int known = 0;
         for (int f = 0; f < frames; f++) {
-            const double moved = without[f] - w->level[f];
+            const double moved = without[f] - levels[f];
             if (!isnan(moved)) {
                 known++;
                 sum += (moved - mean) * (moved - mean) * (known - 1) / known;
@@ -259,7 +253,7 @@ void dip_times_fit_levels(DipTimesWork *w, int base) {
     for (int unit = -1; unit < units; unit++) {
         fit_levels(w, unit, w->level + (unit + 1) * frames);
     }
-    const double noise = noise_of_levels(w);
+    const double noise = dip_times_noise_of_levels(w->level, frames, units);
     dip_times_fill_gaps(w->level, frames);
     const int reach = frames > 2 ? choose_reach(w, w->level) : 1;
     for (int unit = -1; unit < units; unit++) {

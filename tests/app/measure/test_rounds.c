@@ -677,6 +677,19 @@ static void student_has_the_published_quantiles(void **state) {
     assert_true(fabs(dip_student_quantile(0.999999, INFINITY) - 4.753424) < 1e-6);
 }
 
+static void an_estimate_needs_a_finite_error_and_a_degree_of_freedom(void **state) {
+    (void)state;
+    static const double unknown[][2] = {{0.0, 5.0},      {-0.1, 5.0}, {NAN, 5.0}, {INFINITY, 5.0},
+                                        {INFINITY, 0.0}, {0.1, 0.99}, {0.1, NAN}};
+    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
+        const DipEstimate e = dip_estimate_make(2.0, unknown[i][0], unknown[i][1]);
+        assert_true(e.value == 2.0 && isnan(e.low) && isnan(e.high));
+        assert_true(isnan(e.log_error) && isnan(e.degrees));
+    }
+    const DipEstimate known = dip_estimate_make(2.0, 0.1, 1.0);
+    assert_true(known.low < 2.0 && known.high > 2.0);
+}
+
 static void an_estimate_says_how_likely_a_limit_holds(void **state) {
     (void)state;
     const DipEstimate known = dip_estimate_make(10.0, 0.05, INFINITY);
@@ -717,6 +730,7 @@ int main(void) {
         cmocka_unit_test(ratios_of_many_visits_are_known),
         cmocka_unit_test(frames_are_dealt_evenly),
         cmocka_unit_test(student_has_the_published_quantiles),
+        cmocka_unit_test(an_estimate_needs_a_finite_error_and_a_degree_of_freedom),
         cmocka_unit_test(an_estimate_says_how_likely_a_limit_holds),
         cmocka_unit_test(a_percentile_is_linear_between_neighbours),
     };
