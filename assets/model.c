@@ -438,15 +438,16 @@ DipModel *dip_model_load_with(const char *const *files, int file_count,
     DIP_FP_MODE_SCOPE();
     const DipModelLoad load = {.files = files,
                                .file_count = file_count,
-                               .options = *options,
+                               .options = options ? *options : (DipModelOptions){0},
                                .pool = pool,
                                .warnings = warnings,
                                .note_file = -1};
     if (!check_load(&load, err)) {
         return NULL;
     }
-    DipModel *model = options->importer ? dip_model_load_in_child(&load, options->importer, err)
-                                        : dip_model_load_here(&load, err);
+    const DipImporter *importer = load.options.importer;
+    DipModel *model =
+        importer ? dip_model_load_in_child(&load, importer, err) : dip_model_load_here(&load, err);
     if (model && !dip_model_light(model, &load, err)) {
         dip_model_destroy(&model);
     }
@@ -477,8 +478,7 @@ bool dip_picture_import(const char *path, const DipImporter *importer, DipPictur
 
 DipModel *dip_model_load(const char *const *files, int file_count, DipPool *pool,
                          DipErrorList *warnings, DipError *err) {
-    const DipModelOptions options = {.normal_maps = false};
-    return dip_model_load_with(files, file_count, &options, pool, warnings, err);
+    return dip_model_load_with(files, file_count, NULL, pool, warnings, err);
 }
 
 DipModel *dip_model_load_with_normals(const char *const *files, int file_count, DipPool *pool,

@@ -150,7 +150,8 @@ typedef enum DipModelAnimation {
 // The key of the error that a load fails with because no file has the named animation.
 #define DIP_MODEL_ANIMATION_KEY "animation"
 
-// How dip_model_load_with loads a model. A zeroed struct gives what dip_model_load does.
+// How dip_model_load_with loads a model. A zeroed struct, or NULL in its place, gives what
+// dip_model_load does.
 typedef struct DipModelOptions {
     bool normal_maps; // True: normal maps are loaded, too.
     DipUpAxis up;     // Holds for every file.

@@ -3,6 +3,8 @@
 #include "assets/model.h"
 #include "tests/assets/fixture.h"
 
+#include <assimp/cexport.h>
+#include <assimp/cimport.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -207,6 +209,57 @@ static void malformed_draco_meshes_are_refused(void **state) {
     assert_true(strstr(err.message, "malformed") || strstr(err.message, "libdraco-dev"));
 }
 
+// Finds bytes in others. Fails the running test if they do not stand there.
+static uint8_t *find_bytes(uint8_t *bytes, size_t size, const void *wanted, size_t wanted_size) {
+    for (size_t i = 0; i + wanted_size <= size; ++i) {
+        if (memcmp(bytes + i, wanted, wanted_size) == 0) {
+            return bytes + i;
+        }
+    }
+    fail_msg("assimp's binary file has another layout");
+    return NULL;
+}
+
+// assimp's own binary format holds the numbers of meshes, materials and vertices as assimp has
+// them in memory, and assimp does not check them. A file of one mesh, one material and three
+// vertices gets one number that is beyond its list by one. Chunk 0x1237 is the mesh. The number of
+// the node's mesh stands before it, its own last number is that of the triangle's last vertex.
+static void numbers_beyond_assimps_lists_are_refused(void **state) {
+    (void)state;
+    fixture_write_text("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const struct aiScene *scene = aiImportFile(fixture_path("triangle.obj"), 0);
+    assert_non_null(scene);
+    const struct aiExportDataBlob *blob = aiExportSceneToBlob(scene, "assbin", 0);
+    assert_non_null(blob);
+    uint8_t *bytes = blob->data;
+    const uint32_t mesh_chunk = 0x1237;
+    uint8_t *mesh = find_bytes(bytes, blob->size, &mesh_chunk, sizeof mesh_chunk);
+    uint32_t mesh_size;
+    memcpy(&mesh_size, mesh + 4, sizeof mesh_size);
+    // Kinds of primitives, then the numbers of vertices, faces and bones, then the material.
+    const uint32_t counts[] = {4, 3, 1, 0, 0};
+    uint8_t *material = find_bytes(mesh, mesh_size, counts, sizeof counts) + 4 * sizeof counts[0];
+    uint8_t *node_mesh = mesh - 4;
+    uint8_t *vertex = mesh + 8 + mesh_size - 2; // two bytes, the others have four
+    fixture_write("good.assbin", bytes, blob->size);
+    DipModel *model = fixture_load(fixture_path("good.assbin"), NULL, NULL);
+    dip_model_destroy(&model);
+    node_mesh[0] = 1;
+    fixture_write("mesh.assbin", bytes, blob->size);
+    assert_refused(fixture_path("mesh.assbin"), DIP_ERROR_RANGE, "the node uses mesh 1 of 1");
+    node_mesh[0] = 0;
+    material[0] = 1;
+    fixture_write("material.assbin", bytes, blob->size);
+    assert_refused(fixture_path("material.assbin"), DIP_ERROR_RANGE, "uses material 1 of 1");
+    material[0] = 0;
+    assert_int_equal(vertex[0], 2);
+    vertex[0] = 3;
+    fixture_write("vertex.assbin", bytes, blob->size);
+    assert_refused(fixture_path("vertex.assbin"), DIP_ERROR_RANGE, "face 0 uses vertex 3 of 3");
+    aiReleaseExportBlob(blob);
+    aiReleaseImport(scene);
+}
+
 static void assert_all_refused(const char *const *paths, int count, const char *culprit) {
     DipError err = {0};
     assert_null(dip_model_load(paths, count, NULL, NULL, &err));
@@ -231,6 +284,7 @@ int main(void) {
         cmocka_unit_test(required_extensions_in_glb_files_are_refused_too),
         cmocka_unit_test(files_for_later_versions_are_refused),
         cmocka_unit_test(malformed_draco_meshes_are_refused),
+        cmocka_unit_test(numbers_beyond_assimps_lists_are_refused),
         cmocka_unit_test(one_bad_file_fails_the_whole_load),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
