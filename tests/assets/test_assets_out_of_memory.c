@@ -1,6 +1,7 @@
 // Tests what loading models and pictures does when memory runs out: a model is loaded whole or not
 // at all, in this process and through the importer. This program is also its own importer.
 #include "assets/animation.h"
+#include "assets/cameras.h"
 #include "assets/importer.h"
 #include "assets/pack/scene_pack.h"
 #include "tests/assets/fixture.h"
@@ -324,6 +325,52 @@ static void scene_that_moves_is_made_whole_or_not_at_all(void **state) {
     dip_model_destroy(&model);
 }
 
+// --- cameras -------------------------------------------------------------------------------------
+
+typedef struct Filming {
+    const char *file;
+    DipModelCameras *cameras;
+} Filming;
+
+static bool load_cameras(void *context, DipError *err) {
+    Filming *f = context;
+    f->cameras = dip_model_cameras_load(f->file, DIP_UP_auto, NULL, err);
+    return f->cameras != NULL;
+}
+
+static void check_cameras(void *context, bool succeeded) {
+    const Filming *f = context;
+    assert_int_equal(f->cameras != NULL, succeeded);
+    if (succeeded) {
+        int count = 0;
+        dip_model_cameras_list(f->cameras, &count);
+        assert_int_equal(count, 9);
+    }
+}
+
+static void free_cameras(void *context) {
+    Filming *f = context;
+    dip_model_cameras_destroy(&f->cameras);
+}
+
+#define EYE "{\"camera\":0,\"name\":\"eye\"}"
+
+// The list of nine cameras grows several times.
+static void cameras_are_loaded_whole_or_not_at_all(void **state) {
+    (void)state;
+    fixture_write_text("cameras.gltf",
+                       "{\"asset\":{\"version\":\"2.0\"},\"cameras\":[{\"type\":\"perspective\","
+                       "\"perspective\":{\"yfov\":0.8,\"znear\":0.1}}],\"scene\":0,"
+                       "\"scenes\":[{\"nodes\":[0,1,2,3,4,5,6,7,8]}],\"nodes\":[" EYE "," EYE
+                       "," EYE "," EYE "," EYE "," EYE "," EYE "," EYE "," EYE "]}");
+    Filming filming = {.file = fixture_path("cameras.gltf")};
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "loading cameras",
+                                              .context = &filming,
+                                              .run = load_cameras,
+                                              .check = check_cameras,
+                                              .finish = free_cameras});
+}
+
 int main(int argc, char **argv) {
     if (argc > 1 && strcmp(argv[1], importer_word) == 0) {
         return dip_importer_run(argc - 2, argv + 2);
@@ -336,6 +383,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(animated_model_is_loaded_whole_or_not_at_all),
         cmocka_unit_test(pack_is_written_and_read_whole_or_not_at_all),
         cmocka_unit_test(scene_that_moves_is_made_whole_or_not_at_all),
+        cmocka_unit_test(cameras_are_loaded_whole_or_not_at_all),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

@@ -128,14 +128,19 @@ static int open_files(void) {
     return count;
 }
 
-static DipModel *import(const DipImporter *importer, const char *path, DipErrorList *warnings,
-                        DipError *err) {
-    const DipModelOptions options = {.normal_maps = true, .importer = importer};
+static DipModel *import_with(const DipModelOptions *options, const char *path,
+                             DipErrorList *warnings, DipError *err) {
     const int files_before = open_files();
-    DipModel *model = dip_model_load_with(&path, 1, &options, NULL, warnings, err);
+    DipModel *model = dip_model_load_with(&path, 1, options, NULL, warnings, err);
     assert_int_equal(open_files(), files_before);
     assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD); // No process is left behind.
     return model;
+}
+
+static DipModel *import(const DipImporter *importer, const char *path, DipErrorList *warnings,
+                        DipError *err) {
+    const DipModelOptions options = {.normal_maps = true, .importer = importer};
+    return import_with(&options, path, warnings, err);
 }
 
 static void assert_fails(const DipImporter *importer, const char *path, DipErrorCode code,
@@ -267,12 +272,13 @@ static void a_pack_that_is_busy_for_a_while_is_sealed_later(void **state) {
 }
 
 // The same scene and the same warnings as in this process, or the same error.
-static void assert_imports_alike(const char *path) {
+static void assert_imports_alike_with(DipModelOptions options, const char *path) {
     const DipImporter well = importer_that("well");
     DipErrorList warnings[2] = {{0}, {0}};
     DipError err[2] = {{0}, {0}};
-    DipModel *here = dip_model_load_with_normals(&path, 1, NULL, &warnings[0], &err[0]);
-    DipModel *there = import(&well, path, &warnings[1], &err[1]);
+    DipModel *here = import_with(&options, path, &warnings[0], &err[0]);
+    options.importer = &well;
+    DipModel *there = import_with(&options, path, &warnings[1], &err[1]);
     if (!here != !there) {
         fail_msg("%s: here \"%s\", there \"%s\"", path, err[0].message, err[1].message);
     }
@@ -289,6 +295,47 @@ static void assert_imports_alike(const char *path) {
     dip_model_destroy(&there);
     dip_error_list_free(&warnings[0]);
     dip_error_list_free(&warnings[1]);
+}
+
+static void assert_imports_alike(const char *path) {
+    assert_imports_alike_with((DipModelOptions){.normal_maps = true}, path);
+}
+
+// Each option changes the scene, or the error: it reaches the importer.
+static void every_option_reaches_the_importer(void **state) {
+    (void)state;
+    static const DipMaterialRule fitting[] = {
+        {DIP_MARK_SKY, "no*", NULL, NULL, 0, NULL},
+        {DIP_MARK_GLASS, "p?inted", NULL, "a.ini", 7, "MATERIAL_GLASS"},
+    };
+    static const DipMaterialRule unknown[] = {
+        {DIP_MARK_CLIP, "paint*", NULL, "a.ini", 8, "MATERIAL_CLIP"},
+        {DIP_MARK_WATER, "pool", NULL, "b.ini", 9, "MATERIAL_WATER"},
+    };
+    const char *const square = fixture_data("square.obj");
+    const char *const lit = fixture_data("lights.gltf");
+    const char *const moving = fixture_data("motion.gltf");
+    const struct {
+        const char *path;
+        DipModelOptions options;
+    } cases[] = {
+        {square, {.rules = fitting + 1, .rule_count = 1}},
+        {square, {.rules = fitting, .rule_count = 2}},
+        {square, {.rules = unknown, .rule_count = 1}},
+        {square, {.rules = unknown, .rule_count = 2}},
+        {square, {.up = DIP_UP_z}},
+        {square, {.shading = DIP_MODEL_SHADING_flat}},
+        {lit, {.has_light_scale = true, .light_scale = 0.37}},
+        {moving, {.animation = DIP_MODEL_ANIMATION_FIRST}},
+        {moving, {.animation = DIP_MODEL_ANIMATION_NAMED, .animation_name = "no such"}},
+        {moving,
+         {.animation = DIP_MODEL_ANIMATION_FIRST,
+          .animation_is_held = true,
+          .animation_held_s = 0.41}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        assert_imports_alike_with(cases[i].options, cases[i].path);
+    }
 }
 
 static void every_test_model_imports_as_in_this_process(void **state) {
@@ -424,6 +471,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_scene_that_is_too_large_to_hand_over_is_refused),
         cmocka_unit_test(a_failure_of_the_system_is_told_and_is_not_bad_input),
         cmocka_unit_test(a_pack_that_is_busy_for_a_while_is_sealed_later),
+        cmocka_unit_test(every_option_reaches_the_importer),
         cmocka_unit_test(every_test_model_imports_as_in_this_process),
         cmocka_unit_test(the_courtyard_imports_as_in_this_process),
         cmocka_unit_test(a_picture_is_imported_as_in_this_process),

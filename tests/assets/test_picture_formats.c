@@ -150,6 +150,41 @@ static void a_pcx_that_ends_before_its_bits_is_no_pcx(void **state) {
     }
 }
 
+// The numbers of Microsoft's DXGI_FORMAT: R8G8B8A8 UNORM and UNORM_SRGB are 28 and 29; BC1, BC2 and
+// BC3 are 70 to 72, 73 to 75 and 76 to 78 (TYPELESS, UNORM, UNORM_SRGB); B8G8R8A8 is 87, 90 and 91,
+// and B8G8R8X8 is 88, 92 and 93. All others are refused.
+static void dds_formats_are_known_by_their_numbers(void **state) {
+    (void)state;
+    enum { TEXELS = 148, SIDE = 8, NUMBERS = 140 };
+    size_t size_bytes = 0;
+    uint8_t *file = fixture_read(path_of("bc3_dx10.dds"), &size_bytes);
+    uint8_t bytes[TEXELS + 4 * SIDE * SIDE];
+    memcpy(bytes, file, TEXELS);
+    free(file);
+    for (int i = TEXELS; i < (int)sizeof bytes; ++i) {
+        bytes[i] = (uint8_t)(10 * (1 + i % 4)); // The first texel has the bytes 10, 20, 30, 40.
+    }
+    for (int number = 0; number < NUMBERS; ++number) {
+        const bool rgba = number == 28 || number == 29;
+        const bool bgra = number == 87 || number == 90 || number == 91;
+        const bool bgrx = number == 88 || number == 92 || number == 93;
+        const bool block = number >= 70 && number <= 78;
+        DipPicture picture;
+        DipError err = {0};
+        bytes[128] = (uint8_t)number;
+        const bool read = dip_picture_decode(bytes, sizeof bytes, "number", &picture, &err);
+        if (read != (rgba || bgra || bgrx || block)) {
+            fail_msg("the DXGI format %d is %s: %s", number, read ? "read" : "refused",
+                     err.message);
+        }
+        if (read && !block) {
+            const uint8_t expected[4] = {rgba ? 10 : 30, 20, rgba ? 30 : 10, bgrx ? 255 : 40};
+            assert_memory_equal(picture.rgba8, expected, 4);
+        }
+        dip_picture_free(&picture);
+    }
+}
+
 static void malformed_headers_are_refused(void **state) {
     (void)state;
     static const Fault faults[] = {
@@ -453,6 +488,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(files_have_the_texels_that_other_programs_read),
         cmocka_unit_test(every_cut_is_refused),
         cmocka_unit_test(a_pcx_that_ends_before_its_bits_is_no_pcx),
+        cmocka_unit_test(dds_formats_are_known_by_their_numbers),
         cmocka_unit_test(malformed_headers_are_refused),
         cmocka_unit_test(malformed_texts_are_refused),
         cmocka_unit_test(malformed_runs_of_an_hdr_are_refused),
