@@ -246,17 +246,20 @@ static void materials_keep_their_names_and_light_maps(void **context) {
     load_text("./test.ini",
               "XFILE: a.x\nRES: 64x48\nMATERIAL_WATER: Pool *\nMATERIAL_WATER = a=b = c\n"
               "MATERIAL_LIGHTMAP: Wall\nMATERIAL_LIGHTMAP: A = B=C = sub/l=1.png ; comment\n"
-              "MATERIAL_LIGHTMAP = D:E\t=\t/abs.png\nMATERIAL_LIGHTMAP: F=G.png\n",
+              "MATERIAL_LIGHTMAP = D:E\t=\t/abs.png\nMATERIAL_LIGHTMAP: F=G.png\n"
+              "MATERIAL_LIGHTMAP: H= I.png\nMATERIAL_LIGHTMAP: J =K.png\n",
               &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.material_water.count, 2);
     check_material(&config.material_water, 0, "Pool *", NULL, 3);
     check_material(&config.material_water, 1, "a=b = c", NULL, 4);
-    assert_int_equal(config.material_lightmap.count, 4);
+    assert_int_equal(config.material_lightmap.count, 6);
     check_material(&config.material_lightmap, 0, "Wall", NULL, 5);
     check_material(&config.material_lightmap, 1, "A = B=C", "./sub/l=1.png", 6);
     check_material(&config.material_lightmap, 2, "D:E", "/abs.png", 7);
     check_material(&config.material_lightmap, 3, "F=G.png", NULL, 8);
+    check_material(&config.material_lightmap, 4, "H= I.png", NULL, 9);
+    check_material(&config.material_lightmap, 5, "J =K.png", NULL, 10);
     assert_int_equal(config.material_sky.count, 0);
     dip_config_free(&config);
 }
