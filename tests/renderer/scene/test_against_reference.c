@@ -403,6 +403,52 @@ static void normals_without_direction_match_the_reference(void **state) {
     assert_int_equal(missed, 0);
 }
 
+// Where send_lights_away puts the lights.
+static double far_m;
+
+// Moves every point and spot light to a distance, without changing its direction and strength at
+// the origin. A spot light then shines past the origin, between the inner and the outer cone.
+static void send_lights_away(DipTestScene *scene) {
+    for (int l = 0; l < scene->lighting.light_count; l++) {
+        DipLightDef *light = &scene->lights[l];
+        if (light->kind == DIP_LIGHT_DIRECTIONAL) {
+            continue;
+        }
+        float *at = light->position_world;
+        float *a = light->attenuation;
+        const double near_m = sqrt((double)at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+        const double loss = a[0] + a[1] * near_m + a[2] * near_m * near_m;
+        a[0] = (float)(0.5 * loss);
+        a[1] = (float)(0.5 * loss / far_m);
+        a[2] = 0.0f;
+        light->range_m = 0.0f;
+        light->inner_deg = 2.0f;
+        light->outer_deg = 50.0f;
+        for (int c = 0; c < 3; c++) {
+            light->direction_world[c] = (float)(-at[c] / near_m + (c == 1 ? 0.3 : 0.0));
+            at[c] = (float)(at[c] * (far_m / near_m));
+        }
+    }
+}
+
+// Lights on both sides of the distance from which the fast renderer takes them for directional.
+static void lights_far_away_match_the_reference(void **state) {
+    (void)state;
+    static const double distances_m[] = {1e9, 9e17, 1.1e18, 3e19, 1e30, 1e38};
+    static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_lights, DIP_TEST_SCENE_gouraud_lights};
+    int missed = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        for (size_t d = 0; d < sizeof distances_m / sizeof *distances_m; d++) {
+            Pair pair;
+            far_m = distances_m[d];
+            open_changed_pair(&pair, kinds[k], send_lights_away, sizes[0][0], sizes[0][1]);
+            missed += !matches(&pair, kinds[k], "aa=4,af=4", (int)d);
+            close_pair(&pair);
+        }
+    }
+    assert_int_equal(missed, 0);
+}
+
 // How make_clipped changes the fence.
 static struct {
     float cutoff;
@@ -501,6 +547,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(antialiasing_matches_the_reference),
         cmocka_unit_test(normals_without_direction_match_the_reference),
+        cmocka_unit_test(lights_far_away_match_the_reference),
         cmocka_unit_test(temporal_antialiasing_matches_the_reference),
         cmocka_unit_test(adaptive_antialiasing_matches_the_reference),
         cmocka_unit_test(alpha_to_coverage_matches_the_reference),
