@@ -206,6 +206,27 @@ static void skins_and_morph_targets_have_their_shape_at_rest(void **state) {
     dip_model_destroy(&model);
 }
 
+// A skin may leave its matrices out: each is the identity. The joints are at (0, 0, 5) and
+// (0, 10, 5).
+static void a_skin_without_matrices_has_identities(void **state) {
+    (void)state;
+    static const char member[] = "\"inverseBindMatrices\"";
+    size_t size_bytes = 0;
+    uint8_t *bytes = fixture_read(fixture_data("gltf/shapes.gltf"), &size_bytes);
+    bytes[size_bytes] = '\0';
+    char *at = strstr((char *)bytes, member);
+    assert_non_null(at);
+    memcpy(at, "\"anotherMemberHere\"  ", sizeof member - 1); // spaces fill it up
+    fixture_write_text("identities.gltf", (const char *)bytes);
+    free(bytes);
+    DipModel *model = fixture_load(fixture_path("identities.gltf"), NULL, NULL);
+    const DipMeshDef *skinned = mesh_of(dip_model_scene_def(model), "skinned");
+    assert_near_3(corner(skinned, skinned->positions, 0, 3), 0.0, 0.0, 5.0);
+    assert_near_3(corner(skinned, skinned->positions, 1, 3), 1.0, 10.0, 5.0);
+    assert_near_3(corner(skinned, skinned->positions, 2, 3), 0.0, 6.0, 5.0);
+    dip_model_destroy(&model);
+}
+
 static void every_node_with_a_light_is_a_light(void **state) {
     (void)state;
     DipModel *model = load("lamps.gltf", NULL);
@@ -699,6 +720,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(vertex_alphas_belong_to_surfaces_that_clip_or_blend),
         cmocka_unit_test(instances_become_objects_of_one_mesh),
         cmocka_unit_test(skins_and_morph_targets_have_their_shape_at_rest),
+        cmocka_unit_test(a_skin_without_matrices_has_identities),
         cmocka_unit_test(every_node_with_a_light_is_a_light),
         cmocka_unit_test(materials_have_their_factors),
         cmocka_unit_test(specular_pictures_are_drawn_as_their_means),
