@@ -15,8 +15,7 @@
 
 enum { WIDTH = 402, HEIGHT = 300 };
 
-static int set_up(void **state) {
-    (void)state;
+static void open_preview(bool hides_panel) {
     static const char *const settings[DIP_PANE_COUNT] = {"aa=none", "aa=8,af=16"};
     DipRendererDef painters[DIP_PANE_COUNT];
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -25,7 +24,19 @@ static int set_up(void **state) {
     }
     dip_made_open_session(2, 1, painters);
     dip_made_open_display(WIDTH, HEIGHT);
-    assert_true(dip_made_create_preview(NULL, NULL));
+    assert_true(dip_made_create_preview(&(DipPreviewDef){.hides_panel = hides_panel}, NULL));
+}
+
+static int set_up(void **state) {
+    (void)state;
+    open_preview(false);
+    return 0;
+}
+
+// The panes are as high as the display.
+static int set_up_without_dock(void **state) {
+    (void)state;
+    open_preview(true);
     return 0;
 }
 
@@ -104,7 +115,7 @@ static void compare_pane(void) {
                                  &pose, dip_preview_state(made.preview)->play_ns, &frame, NULL));
     assert_int_equal(frame.width, DIP_MAX_FRAME_SIZE);
     assert_int_equal(frame.height, DIP_MAX_FRAME_SIZE);
-    for (int y = 2000; y < 8000; y += 61) {
+    for (int y = 2000; y < 7900; y += 61) { // The button that shows the panel is further down.
         for (int x = 13; x < frame.width; x += 67) {
             assert_memory_equal(pane_pixel(DIP_PANE_CURRENT, frame.width, frame.height, x, y),
                                 frame.rgba8 + (size_t)y * frame.stride_bytes + 4 * (size_t)x, 4);
@@ -129,7 +140,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest small[] = {cmocka_unit_test_setup_teardown(
         small_displays_show_and_leave_nothing_behind, set_up, dip_made_tear_down)};
     const struct CMUnitTest big[] = {cmocka_unit_test_setup_teardown(
-        large_displays_show_large_panes, set_up, dip_made_tear_down)};
+        large_displays_show_large_panes, set_up_without_dock, dip_made_tear_down)};
     return argc > 1 && strcmp(argv[1], "--big") == 0 ? cmocka_run_group_tests(big, NULL, NULL)
                                                      : cmocka_run_group_tests(small, NULL, NULL);
 }
