@@ -3,10 +3,8 @@
 // Usage: test_many_files SOURCE_FOLDER
 #include "app/report/format/formats.h"
 #include "app/cost/plan.h"
-#include "tests/app/display/fake_display.h"
-#include "app/preview/loop/loop.h"
-#include "app/preview/loop/reload.h"
 #include "tests/app/cost/made_report.h"
+#include "tests/app/preview/wall_preview.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,62 +14,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
-// Size of the panes with their gap; the window also has the dock's bar.
-enum { WIDTH = 402, HEIGHT = 150, BAR_HEIGHT = 32, MAX_TURNS = 120000, MAX_FILE_BYTES = 1 << 22 };
+enum { MAX_FILE_BYTES = 1 << 22 };
 
-static const char *sources;
-static char home[1024]; // The working folder before the tests.
-static char folder[] = "/tmp/test_many_files.XXXXXX";
-static DipSessionOptions options;
-static DipSession session;
-static DipDisplay display;
-static DipReload *reload;
-static DipFakeDisplay *fake;
-static DipPreview *preview;
+static const char *sources; // The root of the source tree.
 
 // --- the files -----------------------------------------------------------------------------------
-
-static void write_file(const char *name, const char *text) {
-    FILE *out = fopen(name, "wb");
-    assert_non_null(out);
-    fputs(text, out);
-    assert_int_equal(fclose(out), 0);
-}
-
-// Writes a picture of one colour.
-static void write_picture(const char *name, int red, int green, int blue) {
-    FILE *out = fopen(name, "wb");
-    assert_non_null(out);
-    fprintf(out, "P6\n4 4\n255\n");
-    for (int i = 0; i < 16; ++i) {
-        fputc(red, out);
-        fputc(green, out);
-        fputc(blue, out);
-    }
-    assert_int_equal(fclose(out), 0);
-}
-
-// A square of 4 m by 4 m that faces the camera at z = 3 m.
-static const char wall[] = "mtllib wall.mtl\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\n"
-                           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nusemtl paint\n"
-                           "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
-static const char paint[] = "newmtl paint\nKd 1 1 1\nmap_Kd wall.ppm\n";
-static const char ini[] = "RES: 200x150\nXFILE: wall.obj\nCAMPATH_DEFAULT: still.pth\n"
-                          "CAMPATH_DEFAULT_FOV: 60\nTHREADS: 1\n";
-static const char still[] = "diptych-path 1\nperiod 1\n0 0 3 0 0 0 1\n";
-
-static void write_files(void) {
-    write_file("scene.ini", ini);
-    write_file("wall.obj", wall);
-    write_file("wall.mtl", paint);
-    write_file("still.pth", still);
-    write_picture("wall.ppm", 200, 40, 40);
-}
 
 // Copies a file. A name that does not begin with '/' belongs to the folder of the test.
 static void copy_file(const char *from, const char *to) {
@@ -107,7 +57,7 @@ static void write_noise(const char *name) {
 static void write_reports(void) {
     DipCostReport report;
     dip_made_report(&report, 3);
-    dip_cost_scene_name(&session, report.scene);
+    dip_cost_scene_name(&wall.session, report.scene);
     assert_true(dip_cost_write_json(&report, "cost.json", NULL));
     dip_cost_report_free(&report);
     copy_file("cost.json", "old.json");
@@ -135,144 +85,35 @@ static void write_many_files(void) {
     copy_source("assets/gallery/crab.md2", "crab.md2");
     copy_source("tests/assets/data/square.x", "square.x");
     copy_source("tests/assets/data/bad_truncated.x", "cut.x");
-    write_file("good.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    write_file("bad.obj", "v 0 0 0\nf 1 2 3\n");
-    write_file("good.pth", still);
-    write_file("bad.pth", "diptych-path 1\nperiod 1\n0 0 nan 0 0 0 1\n");
+    dip_wall_write_file("good.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    dip_wall_write_file("bad.obj", "v 0 0 0\nf 1 2 3\n");
+    dip_wall_write_file("good.pth", dip_wall_still);
+    dip_wall_write_file("bad.pth", "diptych-path 1\nperiod 1\n0 0 nan 0 0 0 1\n");
     write_bth("good.bth");
-    write_file("bad.bth", "\x89 no path");
+    dip_wall_write_file("bad.bth", "\x89 no path");
     write_reports();
-    write_file("cut.json", "{\"header\":");
-    write_file("good.ini", ini);
-    write_file("bad.ini", "RES: 200x150\nXFILE: wall.obj\nNONSENSE\n");
-    write_picture("picture.png", 40, 200, 40); // A PNM by its content.
-    write_file("empty.obj", "");
+    dip_wall_write_file("cut.json", "{\"header\":");
+    dip_wall_write_file("good.ini", dip_wall_ini);
+    dip_wall_write_file("bad.ini", "RES: 200x150\nXFILE: wall.obj\nNONSENSE\n");
+    dip_wall_write_picture("picture.png", 40, 200, 40); // A PNM by its content.
+    dip_wall_write_file("empty.obj", "");
     assert_int_equal(mkdir("folder.obj", 0700), 0);
-    write_file("locked.pth", "diptych-path 0\n"); // Bad for a user who may read it all the same.
+    // The file is bad for a user who may read it all the same, too.
+    dip_wall_write_file("locked.pth", "diptych-path 0\n");
     assert_int_equal(chmod("locked.pth", 0), 0);
     assert_int_equal(mkfifo("pipe.obj", 0600), 0);
     assert_int_equal(mkfifo("pipe.ini", 0600), 0);
     write_noise("noise.glb");
-    write_file("text.txt", "Dear reader,\n");
+    dip_wall_write_file("text.txt", "Dear reader,\n");
     memset(long_name, 'n', 251);
     strcpy(long_name + 251, ".obj");
-    write_file(long_name, "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    dip_wall_write_file(long_name, "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
-
-// --- the fixture ---------------------------------------------------------------------------------
 
 static int set_up(void **state) {
-    (void)state;
-    strcpy(strrchr(folder, '.') + 1, "XXXXXX");
-    assert_true(getcwd(home, sizeof home) && mkdtemp(folder) && chdir(folder) == 0);
-    write_files();
-    DipErrorList faults = {0};
-    DipError err = {0};
-    options = (DipSessionOptions){.config = "scene.ini"};
-    const DipSessionDef session_def = {.options = &options, .scene = true, .renderers = true};
-    if (!dip_session_open(&session, &session_def, &faults)) {
-        fail_msg("%s: %s", faults.items[0].file, faults.items[0].message);
-    }
-    dip_error_list_free(&faults);
-    fake = dip_fake_display_open(&display, WIDTH, HEIGHT + BAR_HEIGHT);
-    reload = dip_reload_create(&session, true, &err);
-    assert_true(fake && reload);
-    const DipPreviewDef def = {.session = &session,
-                               .display = display,
-                               .reload = reload,
-                               .flying_speed_m_per_s = 1.0,
-                               .load_scene_def = dip_session_keep_model};
-    preview = dip_preview_create(&def, &err);
-    assert_non_null(preview);
+    const int failed = dip_wall_set_up(state);
     write_many_files();
-    return 0;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    dip_preview_destroy(&preview);
-    dip_reload_destroy(&reload);
-    assert_ptr_equal(session.options, &options);
-    display.close(display.context);
-    dip_session_close(&session);
-    char command[1200];
-    assert_int_equal(chdir(home), 0);
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
-}
-
-// --- driving -------------------------------------------------------------------------------------
-
-static void turn(void) {
-    DipError err = {0};
-    if (!dip_preview_turn(preview, &err)) {
-        fail_msg("%s", err.message);
-    }
-    assert_false(dip_preview_has_quit(preview));
-}
-
-static const char *notice(void) {
-    return dip_preview_state(preview)->notice;
-}
-
-static void assert_notice(const char *part) {
-    if (!strstr(notice(), part)) {
-        fail_msg("the notice is '%s', expected '%s'", notice(), part);
-    }
-}
-
-// Lets the clock of the display run until the notice contains a text. The fake clock and the thread
-// that opens a session have different speeds, so every turn also waits a millisecond.
-static void wait_for(const char *part) {
-    for (int i = 0; i < MAX_TURNS && !strstr(notice(), part); ++i) {
-        const struct timespec millisecond = {0, 1000000};
-        nanosleep(&millisecond, NULL);
-        turn();
-    }
-    assert_notice(part);
-}
-
-// Waits until the notice tells what came of an opening.
-static void wait_for_result(void) {
-    for (int i = 0; i < MAX_TURNS && (!notice()[0] || strstr(notice(), "Opening ")); ++i) {
-        const struct timespec millisecond = {0, 1000000};
-        nanosleep(&millisecond, NULL);
-        turn();
-    }
-    assert_null(strstr(notice(), "Opening "));
-}
-
-// Lets some seconds of the display's clock pass.
-static void wait_seconds(int seconds) {
-    for (int i = 0; i < 60 * seconds; ++i) {
-        const struct timespec pause = {0, 500000};
-        nanosleep(&pause, NULL);
-        turn();
-    }
-}
-
-static void drop(const char *file) {
-    const DipEvent event = {.kind = DIP_EVENT_DROP, .file = file};
-    dip_fake_display_push(fake, &event);
-    turn();
-}
-
-// The colour in the middle of the current pane.
-static void middle(int rgb[3]) {
-    const DipPixels shown = dip_fake_display_picture(fake);
-    const uint8_t *pixel =
-        shown.rgba8 + (size_t)(HEIGHT / 2) * shown.stride_bytes + 4 * (size_t)(WIDTH / 4);
-    for (int c = 0; c < 3; ++c) {
-        rgb[c] = pixel[c];
-    }
-}
-
-static void assert_reddish(bool red) {
-    int rgb[3];
-    middle(rgb);
-    if ((rgb[0] > 2 * rgb[1]) != red) {
-        fail_msg("the wall has the colour %d %d %d", rgb[0], rgb[1], rgb[2]);
-    }
+    return failed;
 }
 
 // --- tests ---------------------------------------------------------------------------------------
@@ -303,66 +144,64 @@ enum { FILE_COUNT = sizeof files / sizeof files[0] };
 
 // Asserts that a key still changes what both panes show.
 static void assert_draws(void) {
-    const int before = dip_fake_display_present_count(fake);
-    dip_fake_display_press(fake, 'x', 0);
-    turn();
-    turn();
-    assert_true(dip_fake_display_present_count(fake) > before);
+    const int before = dip_fake_display_present_count(wall.fake);
+    dip_fake_display_press(wall.fake, 'x', 0);
+    dip_wall_turn();
+    dip_wall_turn();
+    assert_true(dip_fake_display_present_count(wall.fake) > before);
 }
 
 static void assert_result(const struct File *file, bool good, const char *verb) {
-    if (!notice()[0] || (strncmp(notice(), verb, strlen(verb)) == 0) != good) {
+    if (!dip_wall_notice()[0] || (strncmp(dip_wall_notice(), verb, strlen(verb)) == 0) != good) {
         fail_msg("'%s' %s '%s': the notice is '%s'", file->name, verb,
-                 file->watched ? file->watched : "", notice());
+                 file->watched ? file->watched : "", dip_wall_notice());
     }
 }
 
 static void many_dropped_files_never_end_the_preview(void **state) {
     (void)state;
-    turn();
+    dip_wall_turn();
     for (int i = 0; i < FILE_COUNT; ++i) {
-        drop(files[i].name);
-        wait_for_result();
+        dip_wall_drop(files[i].name);
+        dip_wall_wait_for_result();
         assert_result(&files[i], files[i].good, "Opened ");
         assert_draws();
-        drop("scene.ini");
-        wait_for("Opened scene.ini");
-        assert_reddish(true);
-        wait_seconds(4);
-        assert_string_equal(notice(), "");
+        dip_wall_drop("scene.ini");
+        dip_wall_wait_for("Opened scene.ini");
+        dip_wall_assert_reddish(true);
+        dip_wall_wait_seconds(4);
+        assert_string_equal(dip_wall_notice(), "");
     }
 }
 
 // Waits until the error map covers the panes.
 static void wait_for_errors(void) {
     int rgb[3];
-    middle(rgb);
-    for (int i = 0; i < MAX_TURNS && rgb[0] > 2 * rgb[1]; ++i) {
-        const struct timespec millisecond = {0, 1000000};
-        nanosleep(&millisecond, NULL);
-        turn();
-        middle(rgb);
+    dip_wall_middle(rgb);
+    for (int i = 0; i < DIP_WALL_MAX_TURNS && rgb[0] > 2 * rgb[1]; ++i) {
+        dip_wall_wait_turn();
+        dip_wall_middle(rgb);
     }
-    assert_reddish(false);
+    dip_wall_assert_reddish(false);
 }
 
 // The free camera rests, so that errors are measured. A dropped file ends the thread that measures
 // them, and the camera flies on, so that no thread follows. AddressSanitizer sees who reads on.
 static void a_dropped_file_takes_the_error_map_away(void **state) {
     (void)state;
-    turn();
-    assert_reddish(true);
-    dip_fake_display_press(fake, 'c', 0);
-    turn();
-    dip_fake_display_press(fake, 'n', 0);
-    dip_fake_display_press(fake, 'y', 0); // Folds the dock, which covers the current pane.
-    turn();
-    assert_reddish(true);
-    assert_int_equal(dip_preview_state(preview)->tools.map, DIP_MAP_FLIP);
+    dip_wall_turn();
+    dip_wall_assert_reddish(true);
+    dip_fake_display_press(wall.fake, 'c', 0);
+    dip_wall_turn();
+    dip_fake_display_press(wall.fake, 'n', 0);
+    dip_fake_display_press(wall.fake, 'y', 0); // Folds the dock, which covers the current pane.
+    dip_wall_turn();
+    dip_wall_assert_reddish(true);
+    assert_int_equal(dip_preview_state(wall.preview)->tools.map, DIP_MAP_FLIP);
     wait_for_errors();
-    drop("good.obj");
-    wait_for("Opened ");
-    assert_false(dip_preview_state(preview)->manual);
+    dip_wall_drop("good.obj");
+    dip_wall_wait_for("Opened ");
+    assert_false(dip_preview_state(wall.preview)->manual);
     assert_draws();
 }
 
@@ -384,34 +223,34 @@ static void put_back(const struct File *file) {
     char command[1200];
     snprintf(command, sizeof command, "rm -rf '%s'", file->watched);
     assert_int_equal(system(command), 0);
-    write_files();
+    dip_wall_write_files();
 }
 
 static void many_watched_files_never_end_the_preview(void **state) {
     (void)state;
-    turn();
+    dip_wall_turn();
     for (int i = 0; i < FILE_COUNT; ++i) {
         if (!files[i].watched) {
             continue;
         }
         replace(&files[i]);
-        while (!notice()[0]) {
-            wait_seconds(1);
+        while (!dip_wall_notice()[0]) {
+            dip_wall_wait_seconds(1);
         }
-        wait_for_result();
+        dip_wall_wait_for_result();
         assert_result(&files[i], files[i].good_there, "Reloaded ");
         assert_draws();
-        wait_seconds(4);
-        assert_string_equal(notice(), "");
+        dip_wall_wait_seconds(4);
+        assert_string_equal(dip_wall_notice(), "");
         put_back(&files[i]);
-        wait_for("Reloaded");
-        wait_seconds(4);
-        assert_reddish(true);
+        dip_wall_wait_for("Reloaded");
+        dip_wall_wait_seconds(4);
+        dip_wall_assert_reddish(true);
     }
 }
 
 int main(int argc, char **argv) {
-#define FILES_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define FILES_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, dip_wall_tear_down)
     const struct CMUnitTest tests[] = {
         FILES_TEST(a_dropped_file_takes_the_error_map_away),
         FILES_TEST(many_dropped_files_never_end_the_preview),

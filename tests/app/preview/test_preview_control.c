@@ -1,13 +1,10 @@
 // Tests of the control channel on the preview: requests over a socket change what the panes show.
 // The preview runs on a fake display.
-#include "tests/app/display/fake_display.h"
 #include "app/preview/control/control.h"
-#include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"
-#include "config/config.h"
 #include "tests/app/control/line_client.h"
 #include "tests/app/control/random_lines.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/app/preview/made_preview.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -26,52 +23,12 @@
 // The panes are 100 pixels high: the dock's bar takes 32.
 enum { WIDTH = 130, HEIGHT = 132, PANE_WIDTH = (WIDTH - DIP_PANE_GAP_PX) / 2 };
 
-static DipTestScene scene;
-static DipSession session;
-static DipCamPath *path;
-static DipDisplay display;
-static DipFakeDisplay *fake;
 static DipRemote *remote;
-static DipPreview *preview;
 static char folder[64];
 static char socket_path[96];
 static LineClient client;
 
 // --- the fixture ---------------------------------------------------------------------------------
-
-static bool scene_is_broken; // The scene's file has become unreadable.
-static int scene_reads;      // Number of times that the scene's file was read again.
-
-static bool load_scene_def(DipSession *unused, DipError *err) {
-    (void)unused;
-    scene_reads++;
-    if (scene_is_broken) {
-        return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");
-    }
-    session.scene_def = scene.def;
-    return true;
-}
-
-// Makes a path of ten seconds for two categories.
-static void make_path(void) {
-    DipCamKey keys[2];
-    for (int i = 0; i < 2; ++i) {
-        memcpy(keys[i].position_world, scene.pose.position_world, sizeof keys[i].position_world);
-        memcpy(keys[i].orientation, scene.pose.orientation, sizeof keys[i].orientation);
-        keys[i].position_world[0] += i;
-    }
-    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
-    session.track = dip_camtrack_make(true);
-    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, path, 60.0);
-    dip_camtrack_set(&session.track, DIP_CATEGORY_AF, path, 30.0);
-}
-
-static void turn(void) {
-    DipError err = {0};
-    if (!dip_preview_turn(preview, &err)) {
-        fail_msg("%s", err.message);
-    }
-}
 
 static const char *take(void) {
     const char *line;
@@ -79,7 +36,7 @@ static const char *take(void) {
         if (line_client_take(&client, &line)) {
             return line;
         }
-        turn();
+        dip_made_turn();
     }
     return "nothing";
 }
@@ -91,32 +48,18 @@ static const char *ask(const char *line) {
 
 static int set_up(void **state) {
     (void)state;
-    scene_is_broken = false;
-    scene_reads = 0;
-    dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_checker);
     static const DipSessionOptions options = {.config = "made up"};
-    session = (DipSession){.pool = dip_pool_create(1, NULL), .options = &options};
-    session.scene = dip_scene_create(&scene.def, NULL, NULL);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        DipRendererDef def = dip_renderer_default_def();
-        def.pool = session.pool;
-        session.renderers[p] = dip_painter_create(&def, NULL, NULL);
-    }
-    make_path();
+    dip_made_open_session(1, 2, NULL);
+    made.session.options = &options;
+    dip_camtrack_set(&made.session.track, DIP_CATEGORY_AF, made.path, 30.0);
+    dip_made_open_display(WIDTH, HEIGHT);
     strcpy(folder, "/tmp/test_preview_control.XXXXXX");
     assert_non_null(mkdtemp(folder));
     snprintf(socket_path, sizeof socket_path, "%s/socket", folder);
-    fake = dip_fake_display_open(&display, WIDTH, HEIGHT);
     remote = dip_remote_open(socket_path, NULL);
-    assert_true(fake && remote);
-    const DipPreviewDef def = {.session = &session,
-                               .display = display,
-                               .flying_speed_m_per_s = 1.0,
-                               .control = dip_remote_control(remote),
-                               .measures_prices = true,
-                               .load_scene_def = load_scene_def};
-    preview = dip_preview_create(&def, NULL);
-    assert_non_null(preview);
+    assert_non_null(remote);
+    const DipPreviewDef def = {.control = dip_remote_control(remote), .measures_prices = true};
+    assert_true(dip_made_create_preview(&def, NULL));
     line_client_open(&client, socket_path);
     assert_non_null(strstr(take(), "\"protocol\":1"));
     assert_string_equal(ask("{\"request\":\"pause\"}"), "{\"id\":null,\"ok\":true}");
@@ -124,23 +67,14 @@ static int set_up(void **state) {
 }
 
 static int tear_down(void **state) {
-    (void)state;
     line_client_close(&client);
-    dip_preview_destroy(&preview);
+    dip_made_tear_down(state);
     dip_remote_close(&remote);
-    display.close(display.context);
-    dip_campath_destroy(&path);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_painter_destroy(&session.renderers[p]);
-    }
-    dip_scene_destroy(&session.scene);
-    dip_pool_destroy(&session.pool);
-    dip_test_scene_free(&scene);
     return rmdir(folder);
 }
 
 static const DipPreviewState *state_now(void) {
-    return dip_preview_state(preview);
+    return dip_preview_state(made.preview);
 }
 
 static void assert_quality(int pane, const char *expected) {
@@ -203,9 +137,9 @@ static void settings_move_no_camera(void **state) {
     assert_ok("{\"request\":\"play\"}");
     const int64_t before_ns = state_now()->play_ns;
     assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"change\":\"af=8\"}");
-    turn();
+    dip_made_turn();
     assert_ok("{\"request\":\"set\",\"pane\":[\"current\",\"requested\"],\"settings\":\"aa=2\"}");
-    turn();
+    dip_made_turn();
     assert_int_equal(state_now()->track->active, DIP_CATEGORY_DEFAULT);
     assert_true(state_now()->play_ns > before_ns);
     assert_true(state_now()->play_ns < before_ns + INT64_C(1000000000));
@@ -262,7 +196,7 @@ static void the_size_of_the_panes_is_set(void **state) {
     (void)state;
     assert_non_null(strstr(ask("{\"request\":\"size\",\"width\":192,\"height\":220}"),
                            "\"ok\":true,\"width\":192,\"height\":220}"));
-    assert_int_equal(dip_fake_display_picture(fake).width, 2 * 192 + DIP_PANE_GAP_PX);
+    assert_int_equal(dip_fake_display_picture(made.fake).width, 2 * 192 + DIP_PANE_GAP_PX);
     assert_non_null(
         strstr(ask("{\"request\":\"get\",\"what\":\"state\"}"), "\"width\":192,\"height\":220"));
 }
@@ -296,7 +230,7 @@ static void picks_tell_the_colours_that_show(void **state) {
         assert_non_null(strstr(take(), "\"ok\":true"));
     }
     pick(x, y, colours);
-    const DipPixels shown = dip_fake_display_picture(fake);
+    const DipPixels shown = dip_fake_display_picture(made.fake);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const int left = p * (PANE_WIDTH + DIP_PANE_GAP_PX);
         const uint8_t *pixel =
@@ -337,15 +271,15 @@ static void warnings_of_loading_are_told(void **state) {
     static const char request[] = "{\"request\":\"get\",\"what\":\"warnings\"}";
     DipError warning = {.file = "m.gltf", .key = "k", .message = "a \"b\"\x1b\xff"};
     assert_non_null(strstr(ask(request), "\"warnings\":[],\"warnings_left_out\":0"));
-    dip_error_list_add(&session.warnings, &warning);
-    dip_error_list_add(&session.warnings, &(DipError){.line = 3, .message = "c"});
-    session.warnings_left_out = 4;
+    dip_error_list_add(&made.session.warnings, &warning);
+    dip_error_list_add(&made.session.warnings, &(DipError){.line = 3, .message = "c"});
+    made.session.warnings_left_out = 4;
     assert_non_null(strstr(ask(request),
                            "\"warnings\":[{\"file\":\"m.gltf\",\"line\":null,\"key\":\"k\","
                            "\"message\":\"a \\\"b\\\"??\"},{\"file\":null,\"line\":3,\"key\":null,"
                            "\"message\":\"c\"}],\"warnings_left_out\":4"));
     assert_null(strstr(ask("{\"request\":\"get\"}"), "warnings"));
-    dip_error_list_free(&session.warnings);
+    dip_error_list_free(&made.session.warnings);
 }
 
 static void a_scene_without_animations_plays_none(void **state) {
@@ -363,8 +297,8 @@ static void quit_ends_the_preview_with_a_reply(void **state) {
     (void)state;
     const char *line;
     line_client_line(&client, "{\"id\":9,\"request\":\"quit\"}");
-    turn();
-    assert_true(dip_preview_has_quit(preview));
+    dip_made_turn();
+    assert_true(dip_preview_has_quit(made.preview));
     assert_true(line_client_take(&client, &line));
     assert_string_equal(line, "{\"id\":9,\"ok\":true}");
 }
@@ -385,7 +319,7 @@ static void subscribers_hear_of_every_change(void **state) {
     (void)state;
     assert_ok("{\"request\":\"subscribe\",\"to\":[\"settings\",\"notices\"]}");
     assert_true(await_event("{\"event\":\"settings\",\"current\":\"aa=none,"));
-    dip_fake_display_press(fake, (DipKeycode)'f', 0);
+    dip_fake_display_press(made.fake, (DipKeycode)'f', 0);
     assert_true(await_event("\"requested\":\"aa=none,taa=off,aaa=off,asd=1,af=2,"));
     assert_true(await_event("{\"event\":\"notices\",\"text\":\"Anisotropic filtering: 2\"}"));
     line_client_line(&client, "{\"request\":\"path\",\"category\":\"AF\"}");
@@ -400,7 +334,7 @@ static void times_come_while_the_camera_moves(void **state) {
     int events = 0;
     for (int i = 0; i < 70; ++i) {
         const char *line;
-        turn();
+        dip_made_turn();
         while (line_client_take(&client, &line)) {
             events += strstr(line, "\"stages_ms\":{\"geometry\":") != NULL;
         }
@@ -408,19 +342,25 @@ static void times_come_while_the_camera_moves(void **state) {
     assert_in_range(events, 3, 6); // 70 pictures are 1.17 seconds; four events a second.
 }
 
-static void errors_are_measured_for_subscribers(void **state) {
-    (void)state;
-    assert_ok("{\"request\":\"subscribe\",\"to\":\"errors\"}");
-    assert_true(await_event("\"event\":\"errors\""));
+// Runs turns until an event tells the errors, which another thread measures. Returns the event.
+static const char *await_measured_errors(void) {
     const char *line = "";
     for (int i = 0; i < 120000 && !strstr(line, "\"flip\":"); ++i) {
         const struct timespec millisecond = {0, 1000000};
         nanosleep(&millisecond, NULL);
-        turn();
+        dip_made_turn();
         if (!line_client_take(&client, &line)) {
             line = "";
         }
     }
+    return line;
+}
+
+static void errors_are_measured_for_subscribers(void **state) {
+    (void)state;
+    assert_ok("{\"request\":\"subscribe\",\"to\":\"errors\"}");
+    assert_true(await_event("\"event\":\"errors\""));
+    const char *line = await_measured_errors();
     assert_non_null(strstr(line, "\"requested\":{\"rmse_lin\":"));
     assert_non_null(strstr(line, "\"current\":{\"rmse_lin\":"));
     assert_false(dip_preview_shows_times(state_now()));
@@ -431,15 +371,7 @@ static void a_pane_that_is_not_judged_has_no_error(void **state) {
     (void)state;
     assert_ok("{\"request\":\"set\",\"pane\":\"current\",\"change\":\"mipdebug=on\"}");
     assert_ok("{\"request\":\"subscribe\",\"to\":\"errors\"}");
-    const char *line = "";
-    for (int i = 0; i < 120000 && !strstr(line, "\"flip\":"); ++i) {
-        const struct timespec millisecond = {0, 1000000};
-        nanosleep(&millisecond, NULL);
-        turn();
-        if (!line_client_take(&client, &line)) {
-            line = "";
-        }
-    }
+    const char *line = await_measured_errors();
     assert_non_null(strstr(line, "\"requested\":{\"rmse_lin\":"));
     assert_null(strstr(line, "\"current\":{\"rmse_lin\":"));
 }
@@ -469,7 +401,7 @@ static void prices_are_measured_for_subscribers(void **state) {
         const struct timespec millisecond = {0, 1000000};
         const char *line;
         nanosleep(&millisecond, NULL); // The truth is drawn by another thread.
-        turn();
+        dip_made_turn();
         if (line_client_take(&client, &line)) {
             cJSON_Delete(event);
             event = cJSON_Parse(line);
@@ -497,23 +429,23 @@ static void prices_are_measured_for_subscribers(void **state) {
 // without errors, and the file is not read again and again.
 static void prices_read_a_broken_scene_file_only_once(void **state) {
     (void)state;
-    scene_is_broken = true;
+    made.scene_is_broken = true;
     assert_ok("{\"request\":\"set\",\"pane\":\"requested\",\"settings\":\"aa=4\"}");
     assert_ok("{\"request\":\"pause\"}");
     assert_ok("{\"request\":\"subscribe\",\"to\":\"prices\"}");
-    for (int i = 0; i < 120000 && scene_reads == 0; ++i) {
+    for (int i = 0; i < 120000 && made.scene_reads == 0; ++i) {
         const char *line;
-        turn();
+        dip_made_turn();
         line_client_take(&client, &line);
     }
-    assert_int_equal(scene_reads, 1);
+    assert_int_equal(made.scene_reads, 1);
     assert_non_null(strstr(state_now()->notice, "the importer crashed"));
     for (int i = 0; i < 200; ++i) {
         const char *line;
-        turn();
+        dip_made_turn();
         line_client_take(&client, &line);
     }
-    assert_int_equal(scene_reads, 1);
+    assert_int_equal(made.scene_reads, 1);
     assert_true(state_now()->wants_prices);
 }
 
@@ -522,14 +454,14 @@ static void clicks_are_picks(void **state) {
     int colours[DIP_PANE_COUNT][3];
     pick(10, 60, colours);
     assert_ok("{\"request\":\"subscribe\",\"to\":\"picks\"}");
-    dip_fake_display_click(fake, DIP_MOUSE_RIGHT, PANE_WIDTH + DIP_PANE_GAP_PX + 10, 60, 1);
+    dip_fake_display_click(made.fake, DIP_MOUSE_RIGHT, PANE_WIDTH + DIP_PANE_GAP_PX + 10, 60, 1);
     char expected[128];
     snprintf(expected, sizeof expected,
              "{\"event\":\"picks\",\"pane\":\"requested\",\"button\":\"right\",\"x\":10,"
              "\"y\":60,\"current\":[%d,%d,%d],",
              colours[0][0], colours[0][1], colours[0][2]);
     assert_true(await_event(expected));
-    dip_fake_display_click(fake, DIP_MOUSE_LEFT, PANE_WIDTH, 60, 1); // In the gap.
+    dip_fake_display_click(made.fake, DIP_MOUSE_LEFT, PANE_WIDTH, 60, 1); // In the gap.
     assert_string_equal(take(), "nothing");
 }
 
@@ -550,12 +482,12 @@ static void clicks_pick_in_every_comparison(void **state) {
     assert_ok("{\"request\":\"subscribe\",\"to\":\"picks\"}");
     for (size_t i = 0, pressed = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         for (; pressed < (size_t)cases[i].presses; ++pressed) {
-            dip_fake_display_press(fake, (DipKeycode)'j', 0);
-            turn();
+            dip_fake_display_press(made.fake, (DipKeycode)'j', 0);
+            dip_made_turn();
         }
         assert_ok("{\"request\":\"panel\",\"show\":\"off\"}"); // The drawer would cover a pane.
-        turn();
-        dip_fake_display_click(fake, DIP_MOUSE_LEFT, cases[i].x, 60, 1);
+        dip_made_turn();
+        dip_fake_display_click(made.fake, DIP_MOUSE_LEFT, cases[i].x, 60, 1);
         if (!await_event(cases[i].event)) {
             fail_msg("no event with %s", cases[i].event);
         }
@@ -569,7 +501,7 @@ static void polls_ask_for_settings(void **state) {
     int polls = 0;
     for (int i = 0; i < 40; ++i) { // Each turn of the resting preview waits 30 ms.
         const char *line;
-        turn();
+        dip_made_turn();
         if (line_client_take(&client, &line)) {
             polls += strstr(line, "\"event\":\"polls\",\"current\":") != NULL;
         }
@@ -627,7 +559,7 @@ static void random_lines_do_no_harm(void **state) {
             send_random(&line);
         }
         take_replies(25);
-        assert_false(dip_preview_has_quit(preview));
+        assert_false(dip_preview_has_quit(made.preview));
         line_client_line(&client, "{\"request\":\"unsubscribe\",\"to\":[\"times\",\"errors\","
                                   "\"settings\",\"prices\",\"notices\",\"picks\",\"polls\"]}");
         take_replies(1);

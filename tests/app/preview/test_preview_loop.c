@@ -1,12 +1,9 @@
 // Tests of the preview on a fake display: keys and mouse events go in, pixels come out. No SDL is
 // linked.
-#include "tests/app/display/fake_display.h"
 #include "app/files/pictures.h"
-#include "app/preview/loop/loop.h"
 #include "app/preview/loop/view.h"
-#include "config/config.h"
+#include "tests/app/preview/made_preview.h"
 #include "tests/app/preview/png_parts.h"
-#include "renderer/catalogue/scenes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,106 +21,21 @@
 // used here.
 enum { WIDTH = 402, HEIGHT = 300, FIRST_ROW = 100, LAST_ROW = 230 };
 
-static DipTestScene scene;
-static DipSession session;
-static DipCamPath *path;
-static DipDisplay display;
-static DipFakeDisplay *fake;
-static DipPreview *preview;
-
-// --- the fixture -------------------------------------------------------------------------------
-
-static bool scene_is_broken; // The scene's file has become unreadable.
-
-static bool load_scene_def(DipSession *unused, DipError *err) {
-    (void)unused;
-    if (scene_is_broken) {
-        return dip_error_set(err, DIP_ERROR_RUNTIME, "scene.obj", 0, NULL, "the importer crashed");
-    }
-    session.scene_def = scene.def;
-    return true;
-}
-
-// Makes a path of ten seconds, past the scene's chequers and back.
-static void make_path(void) {
-    DipCamKey keys[2];
-    for (int i = 0; i < 2; ++i) {
-        memcpy(keys[i].position_world, scene.pose.position_world, sizeof keys[i].position_world);
-        memcpy(keys[i].orientation, scene.pose.orientation, sizeof keys[i].orientation);
-        keys[i].position_world[0] += i;
-    }
-    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
-    session.track = dip_camtrack_make(true);
-    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, path, 60.0);
-}
-
 static int set_up(void **state) {
     (void)state;
-    dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_checker);
-    session = (DipSession){.pool = dip_pool_create(1, NULL)};
-    session.scene = dip_scene_create(&scene.def, NULL, NULL);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        DipRendererDef def = dip_renderer_default_def();
-        def.pool = session.pool;
-        session.renderers[p] = dip_painter_create(&def, NULL, NULL);
-        assert_non_null(session.renderers[p]);
-    }
-    make_path();
-    fake = dip_fake_display_open(&display, WIDTH, HEIGHT);
-    const DipPreviewDef def = {.session = &session,
-                               .display = display,
-                               .flying_speed_m_per_s = 1.0,
-                               .load_scene_def = load_scene_def};
-    preview = dip_preview_create(&def, NULL);
-    assert_true(session.scene && fake && preview);
-    return 0;
-}
-
-static int tear_down(void **state) {
-    (void)state;
-    dip_preview_destroy(&preview);
-    display.close(display.context);
-    dip_campath_destroy(&path);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_painter_destroy(&session.renderers[p]);
-    }
-    dip_scene_destroy(&session.scene);
-    dip_pool_destroy(&session.pool);
-    dip_test_scene_free(&scene);
+    dip_made_open_session(1, 2, NULL); // The path passes the scene's chequers.
+    dip_made_open_display(WIDTH, HEIGHT);
+    assert_true(dip_made_create_preview(NULL, NULL));
     return 0;
 }
 
 // --- driving and looking -----------------------------------------------------------------------
 
-// Asserts that the display shows what the preview drew, so no damage was forgotten.
-static void assert_shown(void) {
-    const DipPixels shown = dip_fake_display_picture(fake);
-    const DipPixels drawn = dip_preview_picture(preview);
-    assert_int_equal(shown.width, drawn.width);
-    assert_int_equal(shown.height, drawn.height);
-    assert_memory_equal(shown.rgba8, drawn.rgba8, 4 * (size_t)shown.width * (size_t)shown.height);
-}
-
-static void turn(void) {
-    DipError err = {0};
-    if (!dip_preview_turn(preview, &err)) {
-        fail_msg("%s", err.message);
-    }
-    if (!dip_preview_has_quit(preview)) {
-        assert_shown();
-    }
-}
-
-static void press(DipKeycode key) {
-    dip_fake_display_press(fake, key, 0);
-    turn();
-}
-
 static void hold(DipKeycode key, bool down) {
     const DipEvent event = {
         .kind = down ? DIP_EVENT_KEY_DOWN : DIP_EVENT_KEY_UP, .key = key, .position = key};
-    dip_fake_display_push(fake, &event);
-    turn();
+    dip_fake_display_push(made.fake, &event);
+    dip_made_turn_shown();
 }
 
 // A copy of a pane's rows that no label covers.
@@ -133,8 +45,8 @@ typedef struct Pane {
 } Pane;
 
 static Pane look(int pane) {
-    const DipPixels shown = dip_fake_display_picture(fake);
-    const DipLayout layout = dip_preview_layout(preview);
+    const DipPixels shown = dip_fake_display_picture(made.fake);
+    const DipLayout layout = dip_preview_layout(made.preview);
     const DipRect *panes = layout.panes;
     const size_t row_bytes = 4 * (size_t)panes[pane].width;
     Pane copy = {row_bytes * (LAST_ROW - FIRST_ROW), malloc(row_bytes * (LAST_ROW - FIRST_ROW))};
@@ -165,9 +77,9 @@ static bool panes_are_same(void) {
 
 // Pauses, and lets the notice go away and the figures settle.
 static void rest(void) {
-    press(DIP_KEYCODE_SPACE);
+    dip_made_press(DIP_KEYCODE_SPACE);
     for (int i = 0; i < 200; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
 }
 
@@ -175,8 +87,8 @@ static void rest(void) {
 
 static void both_panes_show_the_scene(void **state) {
     (void)state;
-    turn();
-    assert_int_equal(dip_fake_display_present_count(fake), 1);
+    dip_made_turn_shown();
+    assert_int_equal(dip_fake_display_present_count(made.fake), 1);
     const Pane current = look(DIP_PANE_CURRENT);
     int different = 0;
     for (size_t i = 4; i < current.bytes; i += 4) {
@@ -189,22 +101,22 @@ static void both_panes_show_the_scene(void **state) {
 
 static void the_picture_moves_until_it_is_paused(void **state) {
     (void)state;
-    turn();
+    dip_made_turn_shown();
     Pane before = look(DIP_PANE_CURRENT);
     for (int i = 0; i < 10; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
     assert_false(pane_is(DIP_PANE_CURRENT, before));
     rest();
     before = look(DIP_PANE_CURRENT);
-    const int presented = dip_fake_display_present_count(fake);
+    const int presented = dip_fake_display_present_count(made.fake);
     for (int i = 0; i < 10; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
     assert_true(pane_is(DIP_PANE_CURRENT, before));
-    assert_int_equal(dip_fake_display_present_count(fake), presented);
+    assert_int_equal(dip_fake_display_present_count(made.fake), presented);
     before = look(DIP_PANE_CURRENT);
-    press('.');
+    dip_made_press('.');
     assert_false(pane_is(DIP_PANE_CURRENT, before));
 }
 
@@ -212,67 +124,67 @@ static void a_setting_changes_the_requested_pane(void **state) {
     (void)state;
     rest();
     const Pane before = look(DIP_PANE_CURRENT);
-    press('x');
+    dip_made_press('x');
     assert_false(panes_are_same());
     assert_true(pane_is(DIP_PANE_CURRENT, before));
-    press(DIP_KEYCODE_F2); // The second key of the same setting.
-    assert_int_equal(dip_preview_state(preview)->quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA],
-                     2);
+    dip_made_press(DIP_KEYCODE_F2); // The second key of the same setting.
+    assert_int_equal(
+        dip_preview_state(made.preview)->quality[DIP_PANE_REQUESTED].step[DIP_SETTING_AA], 2);
 }
 
 static void enter_copies_requested_to_current(void **state) {
     (void)state;
     rest();
-    press('f');
+    dip_made_press('f');
     assert_false(panes_are_same());
     const Pane requested = look(DIP_PANE_REQUESTED);
-    press(DIP_KEYCODE_ENTER);
+    dip_made_press(DIP_KEYCODE_ENTER);
     assert_true(panes_are_same());
     assert_true(pane_is(DIP_PANE_CURRENT, requested));
 }
 
 static void click(int x, int clicks) {
-    dip_fake_display_click(fake, DIP_MOUSE_LEFT, x, 150, clicks);
-    turn();
+    dip_fake_display_click(made.fake, DIP_MOUSE_LEFT, x, 150, clicks);
+    dip_made_turn_shown();
 }
 
 // A setting's key changes the pane that the key ` or a click has chosen.
 static void a_key_and_clicks_choose_the_pane(void **state) {
     (void)state;
     rest();
-    press((DipKeycode)'`');
+    dip_made_press((DipKeycode)'`');
     Pane requested = look(DIP_PANE_REQUESTED);
-    press('x');
+    dip_made_press('x');
     assert_true(pane_is(DIP_PANE_REQUESTED, requested));
     assert_false(panes_are_same());
     click(WIDTH - 20, 1);
-    press('x');
+    dip_made_press('x');
     assert_true(panes_are_same());
     click(20, 1);
     requested = look(DIP_PANE_REQUESTED);
-    press('x');
+    dip_made_press('x');
     assert_true(pane_is(DIP_PANE_REQUESTED, requested));
-    dip_fake_display_click(fake, DIP_MOUSE_RIGHT, WIDTH - 20, 150, 1);
-    turn();
-    assert_true(dip_preview_state(preview)->edited[DIP_PANE_CURRENT]);
+    dip_fake_display_click(made.fake, DIP_MOUSE_RIGHT, WIDTH - 20, 150, 1);
+    dip_made_turn_shown();
+    assert_true(dip_preview_state(made.preview)->edited[DIP_PANE_CURRENT]);
     click(20, 2);
-    assert_true(dip_fake_display_is_full_screen(fake));
-    press(DIP_KEYCODE_F11);
-    assert_false(dip_fake_display_is_full_screen(fake));
+    assert_true(dip_fake_display_is_full_screen(made.fake));
+    dip_made_press(DIP_KEYCODE_F11);
+    assert_false(dip_fake_display_is_full_screen(made.fake));
 }
 
 // A press that brings an embedded window the keyboard focus does not choose a pane.
 static void a_press_for_the_focus_chooses_no_pane(void **state) {
     (void)state;
-    turn();
+    dip_made_turn_shown();
     DipEvent event = {
         .kind = DIP_EVENT_MOUSE_DOWN, .x = 40, .y = 100, .clicks = 1, .focuses = true};
     for (int i = 0; i < 2; ++i) {
-        dip_fake_display_push(fake, &event);
+        dip_fake_display_push(made.fake, &event);
         event.kind = DIP_EVENT_MOUSE_UP;
-        dip_fake_display_push(fake, &event);
-        turn();
-        assert_int_equal(dip_preview_state(preview)->edited[DIP_PANE_CURRENT], i);
+        dip_fake_display_push(made.fake, &event);
+        dip_made_turn_shown();
+        assert_int_equal(dip_preview_state(made.preview)->edited[DIP_PANE_CURRENT], i);
         event.kind = DIP_EVENT_MOUSE_DOWN;
         event.focuses = false;
     }
@@ -282,22 +194,22 @@ static void a_press_for_the_focus_chooses_no_pane(void **state) {
 static void a_still_camera_rests_from_the_start(void **state) {
     (void)state;
     DipCamPath *still = NULL;
-    const DipCamKey key = dip_campath_key(path, 0);
+    const DipCamKey key = dip_campath_key(made.path, 0);
     const DipCamKey keys[2] = {key, key};
     assert_true(dip_campath_create(keys, 2, INT64_C(500000000), &still, NULL));
-    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, still, 60.0);
+    dip_camtrack_set(&made.session.track, DIP_CATEGORY_DEFAULT, still, 60.0);
     for (int i = 0; i < 300; ++i) { // The figures settle.
-        turn();
+        dip_made_turn_shown();
     }
-    assert_true(dip_preview_rests(dip_preview_state(preview), false));
-    const int presented = dip_fake_display_present_count(fake);
+    assert_true(dip_preview_rests(dip_preview_state(made.preview), false));
+    const int presented = dip_fake_display_present_count(made.fake);
     for (int i = 0; i < 20; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
-    assert_int_equal(dip_fake_display_present_count(fake), presented);
-    dip_camtrack_set(&session.track, DIP_CATEGORY_DEFAULT, path, 60.0);
-    turn();
-    assert_false(dip_preview_rests(dip_preview_state(preview), false));
+    assert_int_equal(dip_fake_display_present_count(made.fake), presented);
+    dip_camtrack_set(&made.session.track, DIP_CATEGORY_DEFAULT, made.path, 60.0);
+    dip_made_turn_shown();
+    assert_false(dip_preview_rests(dip_preview_state(made.preview), false));
     dip_campath_destroy(&still);
 }
 
@@ -313,13 +225,13 @@ static void sheets_cover_the_panes_until_closed(void **state) {
     rest();
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; ++i) {
         const Pane before = look(DIP_PANE_CURRENT);
-        press(ways[i].open);
+        dip_made_press(ways[i].open);
         const Pane covered = look(DIP_PANE_CURRENT);
         assert_false(is_same(&covered, &before));
         free(covered.rgba8);
-        press(ways[i].close);
+        dip_made_press(ways[i].close);
         assert_true(pane_is(DIP_PANE_CURRENT, before));
-        assert_false(dip_preview_has_quit(preview));
+        assert_false(dip_preview_has_quit(made.preview));
     }
 }
 
@@ -327,18 +239,18 @@ static void sheets_cover_the_panes_until_closed(void **state) {
 static void the_panes_follow_the_display(void **state) {
     (void)state;
     static const int sizes[][2] = {{640, 300}, {321, 290}, {402, 480}, {3, 1}, {1, 1}};
-    turn();
+    dip_made_turn_shown();
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
         const int width = sizes[i][0], height = sizes[i][1];
-        assert_true(dip_fake_display_resize(fake, width, height));
-        turn();
-        assert_int_equal(dip_preview_picture(preview).width, width);
+        assert_true(dip_fake_display_resize(made.fake, width, height));
+        dip_made_turn_shown();
+        assert_int_equal(dip_preview_picture(made.preview).width, width);
         if (height > LAST_ROW) {
             assert_true(panes_are_same());
         }
     }
-    assert_true(dip_fake_display_resize(fake, 2 * DIP_MAX_FRAME_SIZE + 100, 40));
-    turn();
+    assert_true(dip_fake_display_resize(made.fake, 2 * DIP_MAX_FRAME_SIZE + 100, 40));
+    dip_made_turn_shown();
 }
 
 // Text grows with the display's scale: the label strip reaches further down.
@@ -346,26 +258,26 @@ static void text_follows_the_scale(void **state) {
     (void)state;
     rest();
     const Pane before = look(DIP_PANE_CURRENT);
-    dip_fake_display_rescale(fake, 2.5);
-    turn();
+    dip_fake_display_rescale(made.fake, 2.5);
+    dip_made_turn_shown();
     assert_false(pane_is(DIP_PANE_CURRENT, before));
 }
 
 static void the_free_camera_follows_held_keys(void **state) {
     (void)state;
     rest();
-    press('c');
+    dip_made_press('c');
     Pane before = look(DIP_PANE_CURRENT);
-    turn();
+    dip_made_turn_shown();
     assert_true(pane_is(DIP_PANE_CURRENT, before));
     before = look(DIP_PANE_CURRENT);
     hold('w', true);
-    turn();
+    dip_made_turn_shown();
     assert_false(pane_is(DIP_PANE_CURRENT, before));
     hold('w', false);
     before = look(DIP_PANE_CURRENT);
     for (int i = 0; i < 5; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
     assert_true(pane_is(DIP_PANE_CURRENT, before));
 }
@@ -373,13 +285,13 @@ static void the_free_camera_follows_held_keys(void **state) {
 static void only_changes_are_presented(void **state) {
     (void)state;
     rest();
-    press(DIP_KEYCODE_TAB);
-    assert_in_range(dip_fake_display_damaged_pixels(fake), 1, WIDTH * HEIGHT / 4);
-    const int presented = dip_fake_display_present_count(fake);
-    dip_fake_display_push(fake, &(DipEvent){.kind = DIP_EVENT_EXPOSE});
-    turn();
-    assert_int_equal(dip_fake_display_present_count(fake), presented + 1);
-    assert_int_equal(dip_fake_display_damaged_pixels(fake), WIDTH * HEIGHT);
+    dip_made_press(DIP_KEYCODE_TAB);
+    assert_in_range(dip_fake_display_damaged_pixels(made.fake), 1, WIDTH * HEIGHT / 4);
+    const int presented = dip_fake_display_present_count(made.fake);
+    dip_fake_display_push(made.fake, &(DipEvent){.kind = DIP_EVENT_EXPOSE});
+    dip_made_turn_shown();
+    assert_int_equal(dip_fake_display_present_count(made.fake), presented + 1);
+    assert_int_equal(dip_fake_display_damaged_pixels(made.fake), WIDTH * HEIGHT);
 }
 
 // While the camera rests and the panel shows, errors are measured. The errors show although no
@@ -387,16 +299,16 @@ static void only_changes_are_presented(void **state) {
 static void errors_appear_while_the_camera_rests(void **state) {
     (void)state;
     rest();
-    press('r');
-    turn();
-    const int presented = dip_fake_display_present_count(fake);
-    for (int i = 0; i < 120000 && dip_fake_display_present_count(fake) == presented; ++i) {
+    dip_made_press('r');
+    dip_made_turn_shown();
+    const int presented = dip_fake_display_present_count(made.fake);
+    for (int i = 0; i < 120000 && dip_fake_display_present_count(made.fake) == presented; ++i) {
         const struct timespec millisecond = {0, 1000000};
         nanosleep(&millisecond, NULL);
-        turn();
+        dip_made_turn_shown();
     }
-    assert_true(dip_fake_display_present_count(fake) > presented);
-    assert_in_range(dip_fake_display_damaged_pixels(fake), 1, WIDTH * HEIGHT / 2);
+    assert_true(dip_fake_display_present_count(made.fake) > presented);
+    assert_in_range(dip_fake_display_damaged_pixels(made.fake), 1, WIDTH * HEIGHT / 2);
 }
 
 // Measuring errors needs the scene's files once more. A file that has become bad in the meantime
@@ -405,39 +317,39 @@ static void a_broken_scene_file_leaves_the_running_scene(void **state) {
     (void)state;
     rest();
     const Pane before = look(DIP_PANE_CURRENT);
-    scene_is_broken = true;
-    press('r');
-    scene_is_broken = false;
-    assert_false(dip_preview_shows_times(dip_preview_state(preview)));
-    assert_non_null(strstr(dip_preview_state(preview)->notice, "the importer crashed"));
+    made.scene_is_broken = true;
+    dip_made_press('r');
+    made.scene_is_broken = false;
+    assert_false(dip_preview_shows_times(dip_preview_state(made.preview)));
+    assert_non_null(strstr(dip_preview_state(made.preview)->notice, "the importer crashed"));
     for (int i = 0; i < 200; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
     assert_true(pane_is(DIP_PANE_CURRENT, before));
-    press('r');
-    assert_true(dip_preview_shows_times(dip_preview_state(preview)));
+    dip_made_press('r');
+    assert_true(dip_preview_shows_times(dip_preview_state(made.preview)));
 }
 
 // A window that nobody sees draws nothing, and its time stands still. It goes on where it was.
 static void a_hidden_window_draws_nothing(void **state) {
     (void)state;
-    turn();
-    turn();
-    dip_fake_display_hide(fake, true);
-    const int presented = dip_fake_display_present_count(fake);
-    const int64_t play_ns = dip_preview_state(preview)->play_ns;
+    dip_made_turn_shown();
+    dip_made_turn_shown();
+    dip_fake_display_hide(made.fake, true);
+    const int presented = dip_fake_display_present_count(made.fake);
+    const int64_t play_ns = dip_preview_state(made.preview)->play_ns;
     for (int i = 0; i < 20; ++i) {
-        turn();
+        dip_made_turn_shown();
     }
-    dip_fake_display_advance(fake, INT64_C(5000000000));
-    turn();
-    assert_int_equal(dip_fake_display_present_count(fake), presented);
-    assert_true(dip_preview_state(preview)->play_ns == play_ns);
-    dip_fake_display_hide(fake, false);
-    turn();
-    turn();
-    assert_true(dip_fake_display_present_count(fake) > presented);
-    assert_in_range(dip_preview_state(preview)->play_ns - play_ns, 1, 100000000);
+    dip_fake_display_advance(made.fake, INT64_C(5000000000));
+    dip_made_turn_shown();
+    assert_int_equal(dip_fake_display_present_count(made.fake), presented);
+    assert_true(dip_preview_state(made.preview)->play_ns == play_ns);
+    dip_fake_display_hide(made.fake, false);
+    dip_made_turn_shown();
+    dip_made_turn_shown();
+    assert_true(dip_fake_display_present_count(made.fake) > presented);
+    assert_in_range(dip_preview_state(made.preview)->play_ns - play_ns, 1, 100000000);
 }
 
 static void quitting_ends_without_another_frame(void **state) {
@@ -447,14 +359,14 @@ static void quitting_ends_without_another_frame(void **state) {
         {.kind = DIP_EVENT_KEY_DOWN, .key = DIP_KEYCODE_ESCAPE},
         {.kind = DIP_EVENT_KEY_DOWN, .key = (DipKeycode)'q', .modifiers = DIP_MODIFIER_CTRL}};
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; ++i) {
-        turn();
-        assert_false(dip_preview_has_quit(preview));
-        const int presented = dip_fake_display_present_count(fake);
-        dip_fake_display_push(fake, &ways[i]);
-        turn();
-        assert_true(dip_preview_has_quit(preview));
-        assert_int_equal(dip_fake_display_present_count(fake), presented);
-        tear_down(NULL);
+        dip_made_turn_shown();
+        assert_false(dip_preview_has_quit(made.preview));
+        const int presented = dip_fake_display_present_count(made.fake);
+        dip_fake_display_push(made.fake, &ways[i]);
+        dip_made_turn();
+        assert_true(dip_preview_has_quit(made.preview));
+        assert_int_equal(dip_fake_display_present_count(made.fake), presented);
+        dip_made_tear_down(NULL);
         set_up(NULL);
     }
 }
@@ -466,15 +378,15 @@ static void a_screenshot_equals_the_shown_picture(void **state) {
     char before[1024];
     assert_true(getcwd(before, sizeof before) && mkdtemp(folder) && chdir(folder) == 0);
     rest();
-    const DipPixels shown = dip_fake_display_picture(fake);
+    const DipPixels shown = dip_fake_display_picture(made.fake);
     unsigned char *expected = NULL;
     size_t expected_bytes = 0;
     assert_true(dip_png_encode(shown.rgba8, shown.stride_bytes, shown.width, shown.height,
                                &expected, &expected_bytes));
-    press(DIP_KEYCODE_F12);
+    dip_made_press(DIP_KEYCODE_F12);
     char notice[256];
     snprintf(notice, sizeof notice, "Saved diptych-0001.png in %s", folder);
-    assert_string_equal(dip_preview_state(preview)->notice, notice);
+    assert_string_equal(dip_preview_state(made.preview)->notice, notice);
     unsigned char *found;
     size_t found_bytes;
     png_read("diptych-0001.png", &found, &found_bytes);
@@ -485,7 +397,8 @@ static void a_screenshot_equals_the_shown_picture(void **state) {
     assert_true(remove("diptych-0001.png") == 0 && chdir(before) == 0 && rmdir(folder) == 0);
 }
 
-// After any events, the display shows what was drawn (turn() checks this), and nothing fails.
+// After any events, the display shows what was drawn (dip_made_turn_shown checks this), and nothing
+// fails.
 static void random_events_do_no_harm(void **state) {
     (void)state;
     uint32_t random = 1;
@@ -503,20 +416,20 @@ static void random_events_do_no_harm(void **state) {
                             event.key == (DipKeycode)'s'; // Ctrl+S writes a file.
         event.key = leaves ? DIP_KEYCODE_SPACE : event.key;
         event.position = event.key;
-        dip_fake_display_push(fake, &event);
+        dip_fake_display_push(made.fake, &event);
         if (value % 50 == 0) {
-            assert_true(dip_fake_display_resize(fake, 1 + (int)(value / 50 % 500),
+            assert_true(dip_fake_display_resize(made.fake, 1 + (int)(value / 50 % 500),
                                                 1 + (int)(value / 7 % 300)));
         }
         if (value % 3 == 0) {
-            turn();
+            dip_made_turn_shown();
         }
     }
-    turn();
+    dip_made_turn_shown();
 }
 
 int main(void) {
-#define PREVIEW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define PREVIEW_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, dip_made_tear_down)
     const struct CMUnitTest tests[] = {
         PREVIEW_TEST(both_panes_show_the_scene),
         PREVIEW_TEST(the_picture_moves_until_it_is_paused),

@@ -2,8 +2,7 @@
 // setting, changes it, applies it, goes to the next path, pauses, flies, and is unplugged. SDL's
 // dummy driver stands for the screen.
 #include "app/display/sdl/sdl_display.h"
-#include "app/preview/loop/loop.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/app/preview/made_preview.h"
 
 #include <SDL2/SDL.h>
 
@@ -19,35 +18,11 @@
 
 enum { WIDTH = 800, HEIGHT = 600, MAX_CONTROLS = 60 };
 
-static DipTestScene scene;
-static DipSession session;
-static DipCamPath *paths[2];
-static DipDisplay display;
-static DipPreview *preview;
+static DipCamPath *second_path;
 static int device = -1; // SDL's index of the virtual controller.
 static SDL_Joystick *joystick;
 
 // --- the fixture -------------------------------------------------------------------------------
-
-static bool load_scene_def(DipSession *unused, DipError *err) {
-    (void)unused;
-    (void)err;
-    session.scene_def = scene.def;
-    return true;
-}
-
-// Makes a path of ten seconds, past the scene's chequers and back.
-static DipCamPath *make_path(double length_m) {
-    DipCamPath *path = NULL;
-    DipCamKey keys[2];
-    for (int i = 0; i < 2; ++i) {
-        memcpy(keys[i].position_world, scene.pose.position_world, sizeof keys[i].position_world);
-        memcpy(keys[i].orientation, scene.pose.orientation, sizeof keys[i].orientation);
-        keys[i].position_world[0] += i * length_m;
-    }
-    assert_true(dip_campath_create(keys, 2, INT64_C(5000000000), &path, NULL));
-    return path;
-}
 
 static int set_up(void **state) {
     (void)state;
@@ -55,59 +30,26 @@ static int set_up(void **state) {
     // No window has the focus on the dummy driver.
     SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
     setenv("SDL_VIDEODRIVER", "dummy", 1);
-    dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_checker);
-    session = (DipSession){.pool = dip_pool_create(1, NULL)};
-    session.scene = dip_scene_create(&scene.def, NULL, NULL);
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        DipRendererDef def = dip_renderer_default_def();
-        def.pool = session.pool;
-        session.renderers[p] = dip_painter_create(&def, NULL, NULL);
-        assert_non_null(session.renderers[p]);
-    }
-    session.track = dip_camtrack_make(true);
-    for (int i = 0; i < 2; ++i) {
-        paths[i] = make_path(1.0 + i);
-        dip_camtrack_set(&session.track, i, paths[i], 60.0);
-    }
-    if (!dip_sdl_display_open(&display, 0, WIDTH, HEIGHT, &err)) {
+    dip_made_open_session(1, 2, NULL);
+    second_path = dip_made_path(2, 2.0);
+    dip_camtrack_set(&made.session.track, DIP_CATEGORY_AA, second_path, 60.0);
+    if (!dip_sdl_display_open(&made.display, 0, WIDTH, HEIGHT, &err)) {
         fail_msg("%s", err.message);
     }
-    const DipPreviewDef def = {.session = &session,
-                               .display = display,
-                               .flying_speed_m_per_s = 1.0,
-                               .load_scene_def = load_scene_def};
-    preview = dip_preview_create(&def, NULL);
-    assert_true(session.scene && preview);
+    assert_true(dip_made_create_preview(NULL, NULL));
     return 0;
 }
 
 static int tear_down(void **state) {
-    (void)state;
-    dip_preview_destroy(&preview);
-    display.close(display.context);
-    for (int i = 0; i < 2; ++i) {
-        dip_campath_destroy(&paths[i]);
-    }
-    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_painter_destroy(&session.renderers[p]);
-    }
-    dip_scene_destroy(&session.scene);
-    dip_pool_destroy(&session.pool);
-    dip_test_scene_free(&scene);
+    dip_made_tear_down(state);
+    dip_campath_destroy(&second_path);
     return 0;
 }
 
 // --- driving and looking -----------------------------------------------------------------------
 
-static void turn(void) {
-    DipError err = {0};
-    if (!dip_preview_turn(preview, &err)) {
-        fail_msg("%s", err.message);
-    }
-}
-
 static const DipPreviewState *now(void) {
-    return dip_preview_state(preview);
+    return dip_preview_state(made.preview);
 }
 
 static void plug_in(void) {
@@ -119,20 +61,20 @@ static void plug_in(void) {
     // A trigger at rest is at the lowest value of the device's axis.
     SDL_JoystickSetVirtualAxis(joystick, SDL_CONTROLLER_AXIS_TRIGGERLEFT, -32768);
     SDL_JoystickSetVirtualAxis(joystick, SDL_CONTROLLER_AXIS_TRIGGERRIGHT, -32768);
-    turn();
+    dip_made_turn();
 }
 
 static void unplug(void) {
     SDL_JoystickClose(joystick);
     assert_int_equal(SDL_JoystickDetachVirtual(device), 0);
-    turn();
+    dip_made_turn();
 }
 
 static void press(SDL_GameControllerButton button) {
     SDL_JoystickSetVirtualButton(joystick, button, 1);
-    turn();
+    dip_made_turn();
     SDL_JoystickSetVirtualButton(joystick, button, 0);
-    turn();
+    dip_made_turn();
 }
 
 static void tilt(SDL_GameControllerAxis axis, Sint16 value) {
@@ -147,8 +89,8 @@ static bool differ(void) {
 
 // Copies the pixels of a pane.
 static uint8_t *look(int pane) {
-    const DipPixels picture = dip_preview_picture(preview);
-    const DipRect rect = dip_preview_layout(preview).panes[pane];
+    const DipPixels picture = dip_preview_picture(made.preview);
+    const DipRect rect = dip_preview_layout(made.preview).panes[pane];
     const size_t row_bytes = 4 * (size_t)rect.width;
     uint8_t *copy = malloc(row_bytes * (size_t)rect.height);
     assert_non_null(copy);
@@ -162,7 +104,7 @@ static uint8_t *look(int pane) {
 
 // Returns whether a pane shows other pixels than the copy, which is freed.
 static bool changed(int pane, uint8_t *before) {
-    const DipRect rect = dip_preview_layout(preview).panes[pane];
+    const DipRect rect = dip_preview_layout(made.preview).panes[pane];
     uint8_t *after = look(pane);
     const bool other = memcmp(before, after, 4 * (size_t)rect.width * (size_t)rect.height) != 0;
     free(before);
@@ -185,10 +127,10 @@ static bool flies(SDL_GameControllerAxis axis, Sint16 value, Sint16 rest) {
     tilt(axis, value);
     for (int i = 0; i < 5; ++i) {
         SDL_Delay(20);
-        turn();
+        dip_made_turn();
     }
     tilt(axis, rest);
-    turn();
+    dip_made_turn();
     return changed(DIP_PANE_REQUESTED, before);
 }
 
@@ -196,7 +138,7 @@ static bool flies(SDL_GameControllerAxis axis, Sint16 value, Sint16 rest) {
 
 static void a_virtual_controller_drives_the_tour(void **state) {
     (void)state;
-    turn();
+    dip_made_turn();
     assert_int_equal(now()->notice[0], '\0');
     plug_in();
     assert_non_null(strstr(now()->notice, "Controller connected: "));
@@ -212,17 +154,17 @@ static void a_virtual_controller_drives_the_tour(void **state) {
     assert_true(differ());
 
     press(SDL_CONTROLLER_BUTTON_BACK); // Takes the focus away.
-    assert_false(dip_preview_has_quit(preview));
-    const int path = session.track.active;
+    assert_false(dip_preview_has_quit(made.preview));
+    const int path = made.session.track.active;
     press(SDL_CONTROLLER_BUTTON_DPAD_RIGHT);
-    assert_int_not_equal(session.track.active, path);
+    assert_int_not_equal(made.session.track.active, path);
     press(SDL_CONTROLLER_BUTTON_DPAD_LEFT);
-    assert_int_equal(session.track.active, path);
+    assert_int_equal(made.session.track.active, path);
 
     press(SDL_CONTROLLER_BUTTON_START);
     assert_true(now()->paused);
     uint8_t *still = look(DIP_PANE_REQUESTED);
-    turn();
+    dip_made_turn();
     assert_false(changed(DIP_PANE_REQUESTED, still));
 
     press(SDL_CONTROLLER_BUTTON_Y);
@@ -234,13 +176,13 @@ static void a_virtual_controller_drives_the_tour(void **state) {
     assert_false(flies(SDL_CONTROLLER_AXIS_LEFTX, 4000, 0)); // Inside the dead zone.
 
     tilt(SDL_CONTROLLER_AXIS_LEFTX, 32767);
-    turn();
+    dip_made_turn();
     unplug();
     assert_non_null(strstr(now()->notice, "Controller disconnected"));
     still = look(DIP_PANE_REQUESTED);
     for (int i = 0; i < 3; ++i) {
         SDL_Delay(20);
-        turn();
+        dip_made_turn();
     }
     // The label of the pane may change, but a camera that still flies would change much more.
     assert_false(changed(DIP_PANE_REQUESTED, still));
@@ -250,7 +192,7 @@ static void a_virtual_controller_drives_the_tour(void **state) {
     press(SDL_CONTROLLER_BUTTON_Y);
     assert_false(now()->manual);
     press(SDL_CONTROLLER_BUTTON_BACK);
-    assert_true(dip_preview_has_quit(preview));
+    assert_true(dip_preview_has_quit(made.preview));
     SDL_JoystickClose(joystick);
 }
 
