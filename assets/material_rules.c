@@ -67,46 +67,20 @@ static bool fits_any(const DipModel *model, const char *pattern) {
     return false;
 }
 
-// A list of names for a message. Names that do not fit are only counted.
-typedef struct NameList {
-    char text[200];
-    size_t length;
-    int left_out;
-} NameList;
-
-static void add_name(NameList *list, const char *name) {
-    char quoted[80];
-    snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
-    dip_make_one_line(quoted);
-    if (strstr(list->text, quoted)) {
-        return;
-    }
-    const size_t room = sizeof list->text - list->length;
-    if (strlen(quoted) + 3 > room) {
-        list->left_out++;
-        return;
-    }
-    list->length += (size_t)snprintf(list->text + list->length, room, "%s%s",
-                                     list->length > 0 ? ", " : "", quoted);
-}
-
 static bool refuse_pattern(const DipModel *model, const DipMaterialRule *rule, DipError *err) {
-    NameList list = {.length = 0};
+    DipNameList list = {.left_out = 0};
     for (int f = 0; f < model->file_count; ++f) {
         const DipModelFile *file = &model->files[f];
         for (int i = 0; i < file->material_count; ++i) {
             if (file->material_names[i][0]) {
-                add_name(&list, file->material_names[i]);
+                dip_name_list_add(&list, file->material_names[i]);
             }
         }
     }
-    char more[24] = "";
-    if (list.left_out > 0) {
-        snprintf(more, sizeof more, " and %d more", list.left_out);
-    }
+    const char *names = dip_name_list_end(&list);
     return dip_error_set(err, DIP_ERROR_UNKNOWN, rule->file, rule->line, rule->key,
-                         "'%.60s' fits no material of the models, accepted %s%s", rule->pattern,
-                         list.length > 0 ? list.text : "nothing, as no material has a name", more);
+                         "'%.60s' fits no material of the models, accepted %s", rule->pattern,
+                         names[0] ? names : "nothing, as no material has a name");
 }
 
 static bool fits_a_surface(const DipModel *model, const char *pattern) {

@@ -202,14 +202,15 @@ typedef struct DipModelTimes {
 } DipModelTimes;
 DIP_API DipModelTimes dip_model_times(const DipModel *model);
 
-// The names of parts of a model, for a message: `, "Run", "Walk" and 3 more`. Begin it with a text
-// or with zeros.
+// The names of parts of a model, for a message: `none, "Run", "Walk" and 3 more`. Begin it with a
+// text or with zeros.
 typedef struct DipNameList {
     char text[200];
     int left_out; // Number of names that did not fit.
 } DipNameList;
 
-// Adds a name, or counts it if it does not fit.
+// Adds the first 70 bytes of a name on one line, unless the list has it. A name that does not fit is
+// counted.
 DIP_API void dip_name_list_add(DipNameList *list, const char *name);
 
 // Ends the text with the number of names that did not fit, and returns the text.

@@ -71,28 +71,6 @@ bool dip_model_check_animation(const DipModel *model, DipError *err) {
                          list.left_out > 0 ? "; diptych path info MODEL lists all" : "");
 }
 
-// --- names for messages --------------------------------------------------------------------------
-
-enum { ROOM_FOR_COUNT = 24 }; // Bytes of a list's end: " and 3 more".
-
-void dip_name_list_add(DipNameList *list, const char *name) {
-    const size_t length = strlen(list->text);
-    const size_t room = sizeof list->text - ROOM_FOR_COUNT;
-    if (length + strlen(name) + 5 > room) {
-        list->left_out++;
-    } else {
-        snprintf(list->text + length, room - length, ", \"%s\"", name);
-    }
-}
-
-const char *dip_name_list_end(DipNameList *list) {
-    const size_t length = strlen(list->text);
-    if (list->left_out > 0) {
-        snprintf(list->text + length, sizeof list->text - length, " and %d more", list->left_out);
-    }
-    return list->text;
-}
-
 // --- the motion ----------------------------------------------------------------------------------
 
 bool dip_model_add_rig(DipModel *model, const DipMotionRig *rig) {

@@ -130,14 +130,13 @@ static void track_cameras(DipSession *session) {
 
 // Fails because --path names neither a file nor a camera. The message lists the cameras.
 static bool refuse_path(const DipSession *session, DipErrorList *faults) {
-    DipNameList list = {.left_out = 0};
+    DipNameList list = {.text = "a file"};
     for (int i = 0; i < session->camera_count; i++) {
         dip_name_list_add(&list, session->cameras[i].name);
     }
-    return dip_session_refuse(
-        faults, DIP_ERROR_MISSING, NULL, 0, "--path",
-        "'%.60s' is neither a file nor a camera of the models, accepted a file%s",
-        session->options->path, dip_name_list_end(&list));
+    return dip_session_refuse(faults, DIP_ERROR_MISSING, NULL, 0, "--path",
+                              "'%.60s' is neither a file nor a camera of the models, accepted %s",
+                              session->options->path, dip_name_list_end(&list));
 }
 
 // --- paths ---------------------------------------------------------------------------------------
