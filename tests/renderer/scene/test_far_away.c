@@ -1,11 +1,9 @@
 // Tests scenes far from the origin of the world: a scene and its camera that move together show the
 // same picture, and projected vertices keep their precision.
 #include "renderer/scene/draw/draws.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/scene_layout.h"
 #include "renderer/catalogue/random.h"
-#include "tests/renderer/scene/image.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -83,29 +81,6 @@ static void move_scene(DipTestScene *scene, const double by[3]) {
     }
 }
 
-// Draws a scene into `pixels`, which is WIDTH * HEIGHT pixels large.
-static void draw(const DipTestScene *scene, const char *settings, uint32_t *pixels) {
-    DipPool *pool = dip_pool_create(1, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipScene *made = dip_scene_create(&scene->def, NULL, NULL);
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    DipFrame frame;
-    assert_non_null(made);
-    assert_non_null(renderer);
-    assert_true(dip_renderer_draw(renderer, made, &scene->pose, 0, &frame, NULL));
-    for (int y = 0; y < HEIGHT; y++) {
-        memcpy(pixels + y * WIDTH, frame.rgba8 + (size_t)y * frame.stride_bytes, 4 * WIDTH);
-    }
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&pool);
-}
-
 static double squared_difference(uint32_t a, uint32_t b) {
     double sum = 0.0;
     for (int c = 0; c < 24; c += 8) {
@@ -131,7 +106,7 @@ static Difference difference_of(DipTestSceneKind kind, const char *settings, con
         if (moved) {
             move_scene(&scene, by);
         }
-        draw(&scene, settings, pictures[moved]);
+        stage_draw_scene(&scene, WIDTH, HEIGHT, settings, pictures[moved]);
         dip_test_scene_free(&scene);
     }
     Difference difference = {0, 0.0};

@@ -2,6 +2,7 @@
 // which begins a history, show what the samples of the patterns of taa=alternate see.
 #include "renderer/catalogue/scenes.h"
 #include "renderer/scene/renderer.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -14,12 +15,6 @@
 #include <cmocka.h>
 
 enum { WIDTH = 83, HEIGHT = 61, PIXELS = WIDTH * HEIGHT };
-
-// Linear light of a code (IEC 61966-2-1).
-static double light_of(int code) {
-    const double v = code / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
 
 static DipRenderer *renderer_with(const char *settings) {
     DipRendererDef def = dip_renderer_default_def();
@@ -58,7 +53,7 @@ static void add_white(DipRenderer *renderer, const DipScene *slats, const DipPos
         const uint8_t *rgb =
             frame.rgba8 + (size_t)(i / WIDTH) * frame.stride_bytes + 4 * (i % WIDTH);
         int white = 0;
-        while (white < samples && light_of(rgb[0]) > (white + 0.5) / samples) {
+        while (white < samples && srgb_light(rgb[0]) > (white + 0.5) / samples) {
             white++;
         }
         counts[i] += white;
