@@ -27,6 +27,13 @@ DipRendererDef stage_def(int width, int height, const char *settings) {
     return def;
 }
 
+DipRenderer *stage_make_renderer(const DipRendererDef *def) {
+    DipError err = {0};
+    DipRenderer *renderer = dip_renderer_create(def, &err);
+    require(renderer != NULL, &err);
+    return renderer;
+}
+
 Stage stage_open(const DipSceneDef *source, DipRendererDef def, int threads) {
     DipError err = {0};
     Stage stage = {.pool = dip_pool_create(threads, &err), .def = def, .source = source};
@@ -34,8 +41,7 @@ Stage stage_open(const DipSceneDef *source, DipRendererDef def, int threads) {
     stage.def.pool = stage.pool;
     stage.scene = dip_scene_create(source, stage.pool, &err);
     require(stage.scene != NULL, &err);
-    stage.renderer = dip_renderer_create(&stage.def, &err);
-    require(stage.renderer != NULL, &err);
+    stage.renderer = stage_make_renderer(&stage.def);
     return stage;
 }
 

@@ -23,6 +23,9 @@ typedef struct Stage {
 // "aa=4,af=8". Settings that the text leaves out get their defaults.
 DipRendererDef stage_def(int width, int height, const char *settings);
 
+// Makes a renderer without a stage. The caller destroys it.
+DipRenderer *stage_make_renderer(const DipRendererDef *def);
+
 // Makes a scene from its description, and a renderer on a pool of `threads` threads. The pool also
 // makes the scene. def.pool is ignored.
 Stage stage_open(const DipSceneDef *source, DipRendererDef def, int threads);

@@ -1,10 +1,9 @@
 // taa=history: the result of every picture against a plain model in double precision that finds the
 // past of a pixel by intersecting its view ray with a plane; and what resets a history, what it
 // takes, and that its frames do not depend on threads, instruction sets or the frames before.
-#include "renderer/catalogue/scenes.h"
 #include "renderer/post/history.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/scene/view/view.h"
+#include "tests/renderer/scene/stage.h"
 #include "tests/support/srgb.h"
 
 #include <math.h>
@@ -386,15 +385,10 @@ static int tear_down(void **state) {
 }
 
 static DipRenderer *renderer_with(const char *settings, DipPool *pool, DipIsa isa) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.width = WIDTH;
-    def.height = HEIGHT;
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.pool = pool;
     def.isa = isa;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
+    return stage_make_renderer(&def);
 }
 
 // Draws a frame of a camera that moves with `index` unless it is at rest.

@@ -1,7 +1,6 @@
 // taa=history: the shifts of its frames. Frames that show the same from the same camera, each of
 // which begins a history, show what the samples of the patterns of taa=alternate see.
-#include "renderer/catalogue/scenes.h"
-#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/stage.h"
 #include "tests/support/srgb.h"
 
 #include <math.h>
@@ -17,13 +16,8 @@
 enum { WIDTH = 83, HEIGHT = 61, PIXELS = WIDTH * HEIGHT };
 
 static DipRenderer *renderer_with(const char *settings) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
+    const DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
+    return stage_make_renderer(&def);
 }
 
 // White slats before black, at many angles.
