@@ -24,36 +24,6 @@ static int count_differences(const uint32_t *a, const uint32_t *b) {
     return count;
 }
 
-// Whether a texture, which may be DIP_NO_TEXTURE, repeats along an axis.
-static bool repeats(const DipTestScene *scene, int texture, int axis) {
-    return texture == DIP_NO_TEXTURE || (axis ? scene->textures[texture].wrap_v
-                                              : scene->textures[texture].wrap_u) == DIP_WRAP_REPEAT;
-}
-
-// Rounds coordinates to multiples of 1/8, which floats hold up to 2^21, and adds whole numbers
-// along the axes that repeat. uv: may be NULL.
-static void shift(float *uv, uint32_t vertex_count, const bool axes[2], const float by[2]) {
-    for (uint32_t i = 0; uv && i < 2 * vertex_count; i++) {
-        uv[i] = roundf(uv[i] * 8.0f) / 8.0f + (axes[i % 2] ? by[i % 2] : 0.0f);
-    }
-}
-
-static void shift_scene(DipTestScene *scene, const float by[2]) {
-    for (int m = 0; m < scene->def.mesh_count; m++) {
-        DipMeshDef *mesh = &scene->meshes[m];
-        const DipMaterialDef *material = &scene->materials[mesh->material];
-        bool axes[2][2];
-        for (int axis = 0; axis < 2; axis++) {
-            axes[0][axis] = material->surface != DIP_SURFACE_SKY &&
-                            repeats(scene, material->colour_texture, axis) &&
-                            repeats(scene, material->normal_map, axis);
-            axes[1][axis] = repeats(scene, material->light_map, axis);
-        }
-        shift((float *)mesh->uv0, mesh->vertex_count, axes[0], by);
-        shift((float *)mesh->uv1, mesh->vertex_count, axes[1], by);
-    }
-}
-
 static void whole_numbers_added_to_repeating_coordinates_change_no_bit(void **state) {
     (void)state;
     static const float shifts[][2] = {
@@ -67,7 +37,7 @@ static void whole_numbers_added_to_repeating_coordinates_change_no_bit(void **st
             for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
                 DipTestScene scene;
                 dip_test_scene_make(&scene, (DipTestSceneKind)kind);
-                shift_scene(&scene, shifts[i]);
+                dip_test_scene_shift_uv(&scene, shifts[i]);
                 stage_draw_scene(&scene, WIDTH, HEIGHT, settings[s], pictures[i > 0]);
                 dip_test_scene_free(&scene);
                 const int count = i ? count_differences(pictures[0], pictures[1]) : 0;
