@@ -52,26 +52,6 @@ static uint8_t texel_of(DipTestTexture texture, Random *random, int x, int y, in
     return ((x / 8) ^ (y / 8)) & 1 ? light[channel] : dark[channel];
 }
 
-void dip_test_scene_enlarge_lights(DipTestScene *scene, float factor) {
-    for (int i = 0; i < scene->lighting.light_count; i++) {
-        DipLightDef *light = &scene->lights[i];
-        for (int axis = 0; axis < 3; axis++) {
-            light->position_world[axis] = roundf(light->position_world[axis] * factor);
-        }
-        light->attenuation[1] /= factor;
-        light->attenuation[2] /= factor * factor;
-        light->range_m *= factor;
-    }
-}
-
-void dip_test_scene_move_lights(DipTestScene *scene, const double by[3]) {
-    for (int i = 0; i < scene->lighting.light_count; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            scene->lights[i].position_world[axis] += (float)by[axis];
-        }
-    }
-}
-
 int dip_test_scene_add_texture(DipTestScene *scene, DipTestTexture texture, int width, int height) {
     const size_t count = (size_t)width * (size_t)height;
     uint8_t *rgba8 = dip_test_scene_alloc(scene, count, 4);
@@ -243,4 +223,112 @@ const char *dip_test_scene_name(DipTestSceneKind kind) {
 #undef DIP_TEST_SCENE_NAME
     };
     return names[kind];
+}
+
+// --- changes that must not show ------------------------------------------------------------------
+
+static void enlarge_lights(DipTestScene *scene, float factor) {
+    for (int i = 0; i < scene->lighting.light_count; i++) {
+        DipLightDef *light = &scene->lights[i];
+        for (int axis = 0; axis < 3; axis++) {
+            light->position_world[axis] = roundf(light->position_world[axis] * factor);
+        }
+        light->attenuation[1] /= factor;
+        light->attenuation[2] /= factor * factor;
+        light->range_m *= factor;
+    }
+}
+
+static void move_lights(DipTestScene *scene, const double by[3]) {
+    for (int i = 0; i < scene->lighting.light_count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            scene->lights[i].position_world[axis] += (float)by[axis];
+        }
+    }
+}
+
+static bool is_placed(const DipObjectDef *object) {
+    static const float identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    return memcmp(object->transform, identity, sizeof identity) != 0;
+}
+
+void dip_test_scene_enlarge(DipTestScene *scene, float factor) {
+    for (int i = 0; i < scene->def.object_count; i++) {
+        DipObjectDef *object = &scene->objects[i];
+        if (is_placed(object)) {
+            for (int k = 0; k < 12; k++) {
+                object->transform[k] *= factor;
+            }
+            for (int axis = 0; axis < 3; axis++) {
+                object->transform[4 * axis + 3] = roundf(object->transform[4 * axis + 3]);
+            }
+            continue;
+        }
+        const DipMeshDef *mesh = &scene->meshes[object->mesh];
+        for (uint32_t k = 0; k < 3 * mesh->vertex_count; k++) {
+            float *position = (float *)(uintptr_t)mesh->positions + k;
+            *position = roundf(*position * factor);
+        }
+    }
+    scene->def.near_m *= factor;
+    enlarge_lights(scene, factor);
+    scene->reflection.level_m = round(scene->reflection.level_m * (double)factor);
+    for (int axis = 0; axis < 3; axis++) {
+        scene->pose.position_world[axis] =
+            round(scene->pose.position_world[axis] * (double)factor * 16.0) / 16.0;
+    }
+}
+
+void dip_test_scene_move(DipTestScene *scene, const double by[3]) {
+    for (int i = 0; i < scene->def.object_count; i++) {
+        DipObjectDef *object = &scene->objects[i];
+        const DipMeshDef *mesh = &scene->meshes[object->mesh];
+        for (uint32_t v = 0; !is_placed(object) && v < mesh->vertex_count; v++) {
+            for (int axis = 0; axis < 3; axis++) {
+                ((float *)(uintptr_t)mesh->positions)[3 * v + (uint32_t)axis] += (float)by[axis];
+            }
+        }
+        for (int axis = 0; is_placed(object) && axis < 3; axis++) {
+            object->transform[4 * axis + 3] += (float)by[axis];
+        }
+    }
+    move_lights(scene, by);
+    scene->reflection.level_m += by[1];
+    for (int axis = 0; axis < 3; axis++) {
+        scene->pose.position_world[axis] += by[axis];
+    }
+}
+
+static bool wraps(DipWrap wrap) {
+    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
+}
+
+// Whether a texture, which may be DIP_NO_TEXTURE, repeats along an axis, mirrored or not.
+static bool repeats(const DipTestScene *scene, int texture, int axis) {
+    return texture == DIP_NO_TEXTURE ||
+           wraps(axis ? scene->textures[texture].wrap_v : scene->textures[texture].wrap_u);
+}
+
+// Rounds coordinates to multiples of 1/8, which floats hold up to 2^21, and adds whole numbers
+// along the axes that repeat. uv: may be NULL.
+static void shift(float *uv, uint32_t vertex_count, const bool axes[2], const float by[2]) {
+    for (uint32_t i = 0; uv && i < 2 * vertex_count; i++) {
+        uv[i] = roundf(uv[i] * 8.0f) / 8.0f + (axes[i % 2] ? by[i % 2] : 0.0f);
+    }
+}
+
+void dip_test_scene_shift_uv(DipTestScene *scene, const float by[2]) {
+    for (int m = 0; m < scene->def.mesh_count; m++) {
+        DipMeshDef *mesh = &scene->meshes[m];
+        const DipMaterialDef *material = &scene->materials[mesh->material];
+        bool axes[2][2];
+        for (int axis = 0; axis < 2; axis++) {
+            axes[0][axis] = material->surface != DIP_SURFACE_SKY &&
+                            repeats(scene, material->colour_texture, axis) &&
+                            repeats(scene, material->normal_map, axis);
+            axes[1][axis] = repeats(scene, material->light_map, axis);
+        }
+        shift((float *)(uintptr_t)mesh->uv0, mesh->vertex_count, axes[0], by);
+        shift((float *)(uintptr_t)mesh->uv1, mesh->vertex_count, axes[1], by);
+    }
 }

@@ -112,14 +112,23 @@ enum { DIP_TEST_NORMALS = 1, DIP_TEST_UV0 = 2, DIP_TEST_UV1 = 4, DIP_TEST_COLOUR
 DipTestMesh dip_test_scene_add_mesh(DipTestScene *scene, uint32_t vertex_count,
                                     uint32_t index_count, int arrays, int material);
 
-// Enlarges the scene's lights with everything around them: places are rounded to whole metres, and
-// the light on the enlarged surfaces stays. The second function moves them.
-void dip_test_scene_enlarge_lights(DipTestScene *scene, float factor);
-void dip_test_scene_move_lights(DipTestScene *scene, const double by[3]);
-
 // Adds a quad with corner p and sides a and b. The quad faces along a x b. Its uv0 run from (0,0)
 // to (u,v) along a and b.
 void dip_test_scene_add_quad(DipTestScene *scene, int material, const float p[3], const float a[3],
                              const float b[3], float u, float v);
+
+// --- changes that must not show ------------------------------------------------------------------
+
+// Enlarges a scene with its camera. Places are rounded to whole metres, and that of the camera to
+// sixteenths. Objects with a transform keep their mesh, and the light on the surfaces stays.
+void dip_test_scene_enlarge(DipTestScene *scene, float factor);
+
+// Moves a scene with its camera. Objects without a transform are moved by their vertices.
+void dip_test_scene_move(DipTestScene *scene, const double by[3]);
+
+// Rounds texture coordinates to multiples of 1/8, which floats hold up to 2^21, and adds whole
+// numbers along the axes where textures repeat, mirrored or not. They must be even for textures
+// that are mirrored.
+void dip_test_scene_shift_uv(DipTestScene *scene, const float by[2]);
 
 #endif

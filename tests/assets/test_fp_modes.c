@@ -387,15 +387,9 @@ static const FpWalkEntry entries[] = {
     {"reading a configuration", call_config},
 };
 
-static void the_mode_of_the_caller_changes_nothing(void **state) {
-    (void)state;
-    fp_walk(entries, sizeof entries / sizeof entries[0]);
-}
-
 int main(int argc, char **argv) {
     if (argc > 1 && strcmp(argv[1], importer_word) == 0) {
         return dip_importer_run(argc - 2, argv + 2);
     }
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_mode_of_the_caller_changes_nothing)};
-    return cmocka_run_group_tests(tests, fixture_open, fixture_close);
+    return fp_walk_main(entries, sizeof entries / sizeof *entries, fixture_open, fixture_close);
 }

@@ -17,10 +17,13 @@ typedef struct FpWalkEntry {
     void (*call)(DipHash *hash);
 } FpWalkEntry;
 
-// Runs each entry in the usual mode and in every mode that the processor has. Fails the cmocka test
-// after the last entry if a result differs, if the mode is another one afterwards, or if an entry
-// adds nothing to its hash. Prints a line for each.
-void fp_walk(const FpWalkEntry *entries, size_t count);
+// Runs each entry in the usual mode and in every mode that the processor has, as the only cmocka
+// test of a program. The test fails after the last entry if a result differs, if the mode is
+// another one afterwards, or if an entry adds nothing to its hash; it prints a line for each.
+// set_up runs before the test and tear_down after it. Either may be NULL. Returns the exit status
+// of the program.
+int fp_walk_main(const FpWalkEntry *entries, size_t count, int (*set_up)(void **state),
+                 int (*tear_down)(void **state));
 
 // Returns the mode of the walk at this moment, or FP_MODE_COUNT for the usual mode.
 FpMode fp_walk_mode(void);

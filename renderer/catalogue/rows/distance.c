@@ -52,66 +52,9 @@ static void compare_changes(StabilityRun *run, Change *change, int change_count,
 
 // --- scenes that move together with the camera ---------------------------------------------------
 
-// Scenes are enlarged by this factor and rounded to whole metres, so that floats hold their
-// positions even 10,000 km from the origin.
+// Floats hold the positions of scenes that are enlarged by this factor even 10,000 km from the
+// origin.
 #define ENLARGED 64.0f
-
-static bool is_placed(const DipObjectDef *object) {
-    static const float identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    return memcmp(object->transform, identity, sizeof identity) != 0;
-}
-
-static void enlarge(float *value) {
-    *value = roundf(*value * ENLARGED);
-}
-
-// Enlarges a scene. Objects with a transform keep their mesh.
-static void enlarge_scene(DipTestScene *scene) {
-    for (int i = 0; i < scene->def.object_count; i++) {
-        DipObjectDef *object = &scene->objects[i];
-        if (is_placed(object)) {
-            for (int k = 0; k < 12; k++) {
-                object->transform[k] *= ENLARGED;
-            }
-            for (int axis = 0; axis < 3; axis++) {
-                object->transform[4 * axis + 3] = roundf(object->transform[4 * axis + 3]);
-            }
-            continue;
-        }
-        const DipMeshDef *mesh = &scene->meshes[object->mesh];
-        for (uint32_t k = 0; k < 3 * mesh->vertex_count; k++) {
-            enlarge((float *)(uintptr_t)mesh->positions + k);
-        }
-    }
-    scene->def.near_m *= ENLARGED;
-    dip_test_scene_enlarge_lights(scene, ENLARGED);
-    scene->reflection.level_m = round(scene->reflection.level_m * (double)ENLARGED);
-    for (int axis = 0; axis < 3; axis++) {
-        scene->pose.position_world[axis] =
-            round(scene->pose.position_world[axis] * (double)ENLARGED * 16.0) / 16.0;
-    }
-}
-
-// Moves a scene and its camera. Objects without a transform are moved by their vertices.
-static void move_scene(DipTestScene *scene, const double by[3]) {
-    for (int i = 0; i < scene->def.object_count; i++) {
-        DipObjectDef *object = &scene->objects[i];
-        const DipMeshDef *mesh = &scene->meshes[object->mesh];
-        for (uint32_t v = 0; !is_placed(object) && v < mesh->vertex_count; v++) {
-            for (int axis = 0; axis < 3; axis++) {
-                ((float *)(uintptr_t)mesh->positions)[3 * v + (uint32_t)axis] += (float)by[axis];
-            }
-        }
-        for (int axis = 0; is_placed(object) && axis < 3; axis++) {
-            object->transform[4 * axis + 3] += (float)by[axis];
-        }
-    }
-    dip_test_scene_move_lights(scene, by);
-    scene->reflection.level_m += by[1];
-    for (int axis = 0; axis < 3; axis++) {
-        scene->pose.position_world[axis] += by[axis];
-    }
-}
 
 static void enlarge_and_move(DipTestScene *scene, int change) {
     static const double moves[][3] = {
@@ -122,8 +65,8 @@ static void enlarge_and_move(DipTestScene *scene, int change) {
         {0.0, 1000448.0, -1000448.0},
         {10000384.0, 0.0, 10000384},
     };
-    enlarge_scene(scene);
-    move_scene(scene, moves[change]);
+    dip_test_scene_enlarge(scene, ENLARGED);
+    dip_test_scene_move(scene, moves[change]);
 }
 
 static void measure_moved(StabilityRun *run) {
@@ -132,44 +75,10 @@ static void measure_moved(StabilityRun *run) {
 
 // --- whole numbers added to texture coordinates --------------------------------------------------
 
-static bool wraps(DipWrap wrap) {
-    return wrap == DIP_WRAP_REPEAT || wrap == DIP_WRAP_MIRROR;
-}
-
-// Whether a texture, which may be DIP_NO_TEXTURE, repeats along an axis, mirrored or not.
-static bool repeats(const DipTestScene *scene, int texture, int axis) {
-    return texture == DIP_NO_TEXTURE ||
-           wraps(axis ? scene->textures[texture].wrap_v : scene->textures[texture].wrap_u);
-}
-
-// Rounds coordinates to multiples of 1/8, which floats hold up to 2^21, and adds whole numbers
-// along the axes that repeat. uv: may be NULL.
-static void shift(float *uv, uint32_t vertex_count, const bool axes[2], const float by[2]) {
-    for (uint32_t i = 0; uv && i < 2 * vertex_count; i++) {
-        uv[i] = roundf(uv[i] * 8.0f) / 8.0f + (axes[i % 2] ? by[i % 2] : 0.0f);
-    }
-}
-
-static void shift_scene(DipTestScene *scene, const float by[2]) {
-    for (int m = 0; m < scene->def.mesh_count; m++) {
-        DipMeshDef *mesh = &scene->meshes[m];
-        const DipMaterialDef *material = &scene->materials[mesh->material];
-        bool axes[2][2];
-        for (int axis = 0; axis < 2; axis++) {
-            axes[0][axis] = material->surface != DIP_SURFACE_SKY &&
-                            repeats(scene, material->colour_texture, axis) &&
-                            repeats(scene, material->normal_map, axis);
-            axes[1][axis] = repeats(scene, material->light_map, axis);
-        }
-        shift((float *)(uintptr_t)mesh->uv0, mesh->vertex_count, axes[0], by);
-        shift((float *)(uintptr_t)mesh->uv1, mesh->vertex_count, axes[1], by);
-    }
-}
-
 static void shift_by(DipTestScene *scene, int change) {
     static const float shifts[][2] = {
         {0.0f, 0.0f}, {4096.0f, 0.0f}, {-65536.0f, 4096.0f}, {1048576.0f, -1048576.0f}};
-    shift_scene(scene, shifts[change]);
+    dip_test_scene_shift_uv(scene, shifts[change]);
 }
 
 static void measure_whole_numbers(StabilityRun *run) {

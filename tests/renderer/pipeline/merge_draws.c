@@ -1,5 +1,6 @@
 // Draws the draws of the plain model by the pipeline, and compares colours with the model's.
 #include "tests/renderer/pipeline/merge_draws.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -82,8 +83,7 @@ void model_assert_float(double found, ModelValue expected, int x, int y, int cha
 }
 
 static double encoded(double light) {
-    const double v = light > 0.0 ? fmin(light, 1.0) : 0.0;
-    return 255.0 * (v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1.0 / 2.4) - 0.055);
+    return 255.0 * srgb_encode(light > 0.0 ? fmin(light, 1.0) : 0.0);
 }
 
 void model_assert_code(int found, ModelValue expected, int x, int y, int channel) {

@@ -4,6 +4,7 @@
 // without the pipeline.
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/catalogue/random.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -136,9 +137,7 @@ static int draw_at(int x, int y) {
 }
 
 static int level_of(uint8_t code) {
-    const double value = code / 255.0;
-    const double light = value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
-    return (int)lround(light * (LEVELS - 1));
+    return (int)lround(srgb_light(code) * (LEVELS - 1));
 }
 
 // Draws the rectangles, and compares every pixel.

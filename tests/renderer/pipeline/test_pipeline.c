@@ -2,6 +2,7 @@
 // planes, clip shaders, the near plane, and input that must draw nothing.
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -276,9 +277,7 @@ static void varyings_are_interpolated_in_perspective(void **state) {
         const double du = 1.0 / 3.0 / (below * below) / WIDTH * scale;
         const double expected[3] = {u, du, 0.0};
         for (int c = 0; c < 3; c++) {
-            const double e = expected[c];
-            const double code =
-                255.0 * (e <= 0.0031308 ? 12.92 * e : 1.055 * pow(e, 1.0 / 2.4) - 0.055);
+            const double code = 255.0 * srgb_encode(expected[c]);
             assert_true(fabs(picture[4 * (30 * WIDTH + x) + c] - code) <= 0.6);
         }
     }

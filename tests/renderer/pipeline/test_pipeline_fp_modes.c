@@ -406,12 +406,6 @@ static const FpWalkEntry entries[] = {
     {"drawing several passes", call_draw_passes},
 };
 
-static void the_mode_of_the_caller_changes_nothing(void **state) {
-    (void)state;
-    fp_walk(entries, sizeof entries / sizeof *entries);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_mode_of_the_caller_changes_nothing)};
-    return cmocka_run_group_tests(tests, make_inputs, free_inputs);
+    return fp_walk_main(entries, sizeof entries / sizeof *entries, make_inputs, free_inputs);
 }

@@ -1,4 +1,5 @@
 #include "tests/renderer/post/post_model.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 
@@ -116,14 +117,6 @@ ModelColour model_sharpen(const ModelPicture *p, double sharpness, int x, int y)
 
 // --- enlarging -----------------------------------------------------------------------------------
 
-static double decode(double c) {
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-static double encode(double l) {
-    return l <= 0.0031308 ? 12.92 * l : 1.055 * pow(l, 1 / 2.4) - 0.055;
-}
-
 static double centre(int i, int from, int to) {
     return (i + 0.5) * from / to - 0.5;
 }
@@ -147,7 +140,7 @@ static ModelColour weighted(const ModelPicture *p, double x, double y, double (*
         double sum = 0, least = 2, most = -1;
         for (int j = -1; j < 3; j++) {
             for (int i = -1; i < 3; i++) {
-                const double light = decode(code(p, x0 + i, y0 + j, c));
+                const double light = srgb_decode(code(p, x0 + i, y0 + j, c));
                 sum += weight(x - x0 - i) * weight(y - y0 - j) * light;
                 if (i >= 0 && i < 2 && j >= 0 && j < 2) {
                     least = fmin(least, light);
@@ -155,7 +148,7 @@ static ModelColour weighted(const ModelPicture *p, double x, double y, double (*
                 }
             }
         }
-        result.rgb[c] = 255 * encode(clamp(clamped ? clamp(sum, least, most) : sum, 0, 1));
+        result.rgb[c] = 255 * srgb_encode(clamp(clamped ? clamp(sum, least, most) : sum, 0, 1));
     }
     return result;
 }

@@ -123,12 +123,6 @@ static int free_filters(void **state) {
     return 0;
 }
 
-static void the_mode_of_the_caller_changes_nothing(void **state) {
-    (void)state;
-    fp_walk(entries, sizeof entries / sizeof *entries);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_mode_of_the_caller_changes_nothing)};
-    return cmocka_run_group_tests(tests, make_filters, free_filters);
+    return fp_walk_main(entries, sizeof entries / sizeof *entries, make_filters, free_filters);
 }

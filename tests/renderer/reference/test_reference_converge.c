@@ -13,15 +13,12 @@
 #include <cmocka.h>
 
 #include "tests/renderer/pipeline/near.h"
+#include "tests/support/srgb.h"
 
 static DipScreenPicture picture;
 static DipScreenPicture other;
 
 enum { VALUES = DIP_SCREEN * DIP_SCREEN * 3 };
-
-static double decode(double code) {
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
 
 // A texture of 8x8 texels repeats once per pixel. Over a period, all texels have equal bilinear
 // weight, so the mean over a pixel is the mean of the texels, in linear light.
@@ -35,7 +32,7 @@ static void textures_converge_to_their_mean(void **state) {
     for (int c = 0; c < 3; c++) {
         double expected = 0.0;
         for (int i = 0; i < 64; i++) {
-            expected += decode(scene.textures[texture].rgba8[4 * i + c] / 255.0) / 64.0;
+            expected += srgb_light(scene.textures[texture].rgba8[4 * i + c]) / 64.0;
         }
         double mean = 0.0;
         for (int i = 0; i < DIP_SCREEN * DIP_SCREEN; i++) {

@@ -15,12 +15,9 @@
 #include <cmocka.h>
 
 #include "tests/renderer/pipeline/near.h"
+#include "tests/support/srgb.h"
 
 static DipScreenPicture picture;
-
-static double decode(double code) {
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
 
 static double determinant(const double a[3], const double b[3], const double c[3]) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
@@ -163,8 +160,8 @@ static void mip_colour_at(double lambda, double rgb[3]) {
     const double level = fmin(fmax(lambda, 0.0), 8.0);
     const int finer = (int)level;
     for (int c = 0; c < 3; c++) {
-        const double near_one = decode(codes[finer][c] / 255.0);
-        rgb[c] = near_one + (decode(codes[finer + 1][c] / 255.0) - near_one) * (level - finer);
+        const double near_one = srgb_light(codes[finer][c]);
+        rgb[c] = near_one + (srgb_light(codes[finer + 1][c]) - near_one) * (level - finer);
     }
 }
 
@@ -246,7 +243,7 @@ static void colour_is_base_times_texture_times_light_map(void **state) {
     scene.materials[material].light_map_scale = 2.0f;
     scene.materials[material].base_colour_lin[2] = 0.25f;
     dip_screen_add_cover(&scene, material, 1.0f, 1.0f);
-    const double texel = decode(188.0 / 255.0);
+    const double texel = srgb_light(188);
     // Without second texture coordinates, the light map has no effect.
     dip_screen_draw(&scene, "af=16", picture);
     assert_near(picture[9][5][0], texel, 1e-12);

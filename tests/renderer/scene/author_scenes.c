@@ -162,6 +162,17 @@ int author_add_quad(AuthorScene *scene, int material, const float p[3], const fl
     return scene->def.object_count - 1;
 }
 
+int author_add_water(AuthorScene *scene, int width, int height) {
+    const int water = author_add_pbr(scene, 0.0f, 1.0f);
+    scene->materials[water].surface = DIP_SURFACE_WATER;
+    scene->materials[water].pbr = NULL;
+    scene->materials[water].base_colour_lin[0] = 0.05f;
+    author_add_quad(scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
+                    (const float[]){0, 0, -8});
+    scene->reflection = (DipReflectionDef){.width = width, .height = height, .level_m = -1.0};
+    return water;
+}
+
 // Copies a mesh behind the vertices and indices that `out` has already.
 static void append(const DipMeshDef *from, const float transform[12], DipMeshDef *out) {
     uint32_t *indices = (uint32_t *)(uintptr_t)out->indices + out->index_count;
@@ -357,4 +368,18 @@ void author_make_panes(AuthorScene *scene) {
                     (const float[]){0, 2.0f, 0});
     author_add_quad(scene, wall, (const float[]){-5.0f, -4.0f, -2.5f}, (const float[]){7.0f, 0, 0},
                     (const float[]){0, 8.0f, 0});
+}
+
+void author_make_glass(AuthorScene *scene) {
+    static const float transmissions[4] = {1.0f, 0.6f, 0.9f, 0.7f};
+    author_make_panes(scene);
+    for (int m = 0; m < 4; m++) {
+        scene->materials[m].pbr = &scene->pbrs[m];
+        scene->materials[m].opacity = m == 3 ? 0.9f : 1.0f;
+        scene->pbrs[m].transmission = transmissions[m];
+    }
+    scene->pbrs[1].sheen_lin[0] = 0.5f;
+    scene->pbrs[1].sheen_roughness = 0.4f;
+    scene->pbrs[2].coat = 0.8f;
+    scene->pbrs[3].metallic = 0.3f;
 }

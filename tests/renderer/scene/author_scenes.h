@@ -3,6 +3,7 @@
 #define DIP_TESTS_RENDERER_SCENE_AUTHOR_SCENES_H
 
 #include "renderer/scene/pose.h"
+#include "renderer/scene/reflection.h"
 #include "renderer/scene/scene.h"
 
 enum { AUTHOR_PARTS = 24, AUTHOR_BLOCKS = 64 };
@@ -11,6 +12,7 @@ enum { AUTHOR_PARTS = 24, AUTHOR_BLOCKS = 64 };
 typedef struct AuthorScene {
     DipSceneDef def;
     DipPose pose;
+    DipReflectionDef reflection; // width 0 until author_add_water
     DipTextureDef textures[AUTHOR_PARTS];
     DipMaterialDef materials[AUTHOR_PARTS];
     DipPbrDef pbrs[AUTHOR_PARTS]; // of the materials with the same indices
@@ -41,6 +43,10 @@ int author_add_sphere(AuthorScene *scene, int material, const float centre[3], f
 int author_add_quad(AuthorScene *scene, int material, const float p[3], const float a[3],
                     const float b[3]);
 
+// Adds dark water at a height of -1, below the middle of the picture. Returns its material. The
+// mirrored picture has the given size in pixels.
+int author_add_water(AuthorScene *scene, int width, int height);
+
 // Makes one mesh of the meshes of the objects first..last, which must be the last ones, in this
 // order. If `linked`, triangles without area connect each part with the next one. The new object
 // takes the place of the first one, whose index is returned.
@@ -62,5 +68,9 @@ void author_make_parts(AuthorScene *scene);
 
 // Blended panes and balls, some of them double-sided or textured, before and behind a wall.
 void author_make_panes(AuthorScene *scene);
+
+// The panes and the ball of author_make_panes as glass: tinted, partly transmissive, coated,
+// double-sided, with a texture of alpha, and with a sheen. The materials 0 to 3 are glass.
+void author_make_glass(AuthorScene *scene);
 
 #endif

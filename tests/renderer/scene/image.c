@@ -1,10 +1,13 @@
-// Compares a drawn frame with the picture that is expected.
+// Reads the pixels of a drawn frame, and compares them with the picture that is expected.
 #include "tests/renderer/scene/image.h"
+
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -15,16 +18,8 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-static double decode(double code) {
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
-
-static double encode(double linear) {
-    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
-}
-
 static uint8_t to_byte(double linear) {
-    return (uint8_t)floor(255.0 * encode(fmin(fmax(linear, 0.0), 1.0)) + 0.5);
+    return (uint8_t)floor(255.0 * srgb_encode(fmin(fmax(linear, 0.0), 1.0)) + 0.5);
 }
 
 // Decodes a code of 8 bits.
@@ -32,14 +27,25 @@ static double decode_code(uint8_t code) {
     static double decoded[256];
     if (decoded[255] == 0.0) {
         for (int i = 0; i < 256; i++) {
-            decoded[i] = decode(i / 255.0);
+            decoded[i] = srgb_light(i);
         }
     }
     return decoded[code];
 }
 
-static const uint8_t *pixel_of(const DipFrame *frame, int x, int y) {
+const uint8_t *dip_image_pixel(const DipFrame *frame, int x, int y) {
     return frame->rgba8 + (size_t)y * frame->stride_bytes + 4 * (size_t)x;
+}
+
+const uint8_t *dip_image_centre(const DipFrame *frame) {
+    return dip_image_pixel(frame, frame->width / 2, frame->height / 2);
+}
+
+void dip_image_copy(const DipFrame *frame, void *rgba8) {
+    const size_t row_bytes = (size_t)frame->width * 4;
+    for (int y = 0; y < frame->height; y++) {
+        memcpy((uint8_t *)rgba8 + (size_t)y * row_bytes, dip_image_pixel(frame, 0, y), row_bytes);
+    }
 }
 
 // Compares a frame without its PSNR, for which every expected value would have to be encoded.
@@ -53,7 +59,8 @@ static DipImageError compare_light(const double *rgb_lin, const DipFrame *frame,
             for (int c = 0; c < 3; c++) {
                 const double expected =
                     rgb_lin[3 * ((size_t)y * (size_t)frame->width + (size_t)x) + (size_t)c];
-                const double difference = fabs(decode_code(pixel_of(frame, x, y)[c]) - expected);
+                const double difference =
+                    fabs(decode_code(dip_image_pixel(frame, x, y)[c]) - expected);
                 worst = fmax(worst, difference);
                 squares += difference * difference;
                 error.mean_lin += difference / count;
@@ -76,7 +83,8 @@ static double psnr_db(const double *rgb_lin, const DipFrame *frame) {
     for (int y = 0; y < frame->height; y++) {
         for (int x = 0; x < 3 * frame->width; x++) {
             const double expected = *rgb_lin++;
-            const double difference = pixel_of(frame, x / 3, y)[x % 3] - (double)to_byte(expected);
+            const double difference =
+                dip_image_pixel(frame, x / 3, y)[x % 3] - (double)to_byte(expected);
             squares += difference * difference;
         }
     }
@@ -121,7 +129,7 @@ static void write_picture(const char *name, Picture picture, const double *rgb_l
     for (int y = 0; y < frame->height; y++) {
         for (int x = 0; x < frame->width; x++) {
             for (int c = 0; c < 3; c++) {
-                *out++ = byte_of(picture, *rgb_lin++, pixel_of(frame, x, y)[c]);
+                *out++ = byte_of(picture, *rgb_lin++, dip_image_pixel(frame, x, y)[c]);
             }
         }
     }
@@ -142,7 +150,7 @@ static void report(const char *name, const double *rgb_lin, const DipFrame *fram
             psnr_db(rgb_lin, frame), error->over_count, bounds->pixel_lin,
             floor(bounds->over_share * frame->width * frame->height));
     if (error->over_count) {
-        const uint8_t *got = pixel_of(frame, error->first_x, error->first_y);
+        const uint8_t *got = dip_image_pixel(frame, error->first_x, error->first_y);
         const double *expected =
             rgb_lin + 3 * ((size_t)error->first_y * (size_t)frame->width + (size_t)error->first_x);
         fprintf(stderr, "  first at (%d, %d): expected sRGB %u %u %u, got %u %u %u\n",

@@ -1,4 +1,4 @@
-// Compares a drawn frame with the picture that is expected.
+// Reads the pixels of a drawn frame, and compares them with the picture that is expected.
 #ifndef DIP_TESTS_RENDERER_SCENE_IMAGE_H
 #define DIP_TESTS_RENDERER_SCENE_IMAGE_H
 
@@ -6,6 +6,16 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+
+// Returns the four bytes of a pixel of a frame.
+const uint8_t *dip_image_pixel(const DipFrame *frame, int x, int y);
+
+// Returns the four bytes of the pixel whose top left corner is the middle of a frame of even size.
+const uint8_t *dip_image_centre(const DipFrame *frame);
+
+// Copies a frame's pixels without gaps between the rows: width * height * 4 bytes.
+void dip_image_copy(const DipFrame *frame, void *rgba8);
 
 // The error of a frame. Errors are in linear light, 0..1. The error of a pixel is the greatest
 // error of its channels.

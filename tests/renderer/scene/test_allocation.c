@@ -1,8 +1,7 @@
 // Tests that drawing a frame allocates no memory. After the first frame of a scene, drawing the
 // scene with any settings and any camera must not call an allocator. tests/support/allocation.h
 // counts the calls.
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 #include "tests/support/allocation.h"
 
 #include <setjmp.h>
@@ -47,28 +46,18 @@ static void frames_of_a_history_allocate_nothing(void **state) {
     static DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_fence);
     const int64_t at_first = dip_allocation_count();
-    DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
-    DipPool *pool = dip_pool_create(2, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = 160;
-    def.height = 120;
-    assert_true(dip_quality_parse("taa=history", &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    DipFrame frame;
-    assert_true(dip_renderer_draw(renderer, fast, &scene.pose, 0, &frame, NULL));
+    Stage stage = stage_open(&scene.def, stage_def(160, 120, "taa=history"), 2);
+    stage_draw(&stage, &scene.pose, 0);
     const int64_t before = dip_allocation_count();
     assert_true(before > at_first);
     for (int i = 1; i < 40; i++) {
         scene.pose.position_world[0] += i < 20 ? 0.05 : 0.0;
-        dip_renderer_set_frame_index(renderer, (uint64_t)i);
-        assert_true(dip_renderer_draw(renderer, fast, &scene.pose, 0, &frame, NULL));
+        dip_renderer_set_frame_index(stage.renderer, (uint64_t)i);
+        const DipFrame frame = stage_draw(&stage, &scene.pose, 0);
         assert_true(i > 19 || frame.counters.pixels_reprojected > 0);
     }
     assert_int_equal(before, dip_allocation_count());
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&fast);
-    dip_pool_destroy(&pool);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -134,17 +123,13 @@ static void frames_after_the_first_allocate_nothing(void **state) {
         static DipTestScene scene;
         make_scene(kind, &scene);
         const int64_t before = dip_allocation_count();
-        DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
-        DipPool *pool = dip_pool_create(2, NULL);
-        DipRendererDef def = dip_renderer_default_def();
-        def.pool = pool;
-        def.width = 160;
-        def.height = 120;
+        DipRendererDef def = stage_def(160, 120, "");
         def.reflection = scene.reflection;
         def.quality.step[DIP_SETTING_SHADOWS] = 1;
-        DipRenderer *panes[2] = {dip_renderer_create(&def, NULL), dip_renderer_create(&def, NULL)};
+        Stage stage = stage_open(&scene.def, def, 2);
+        DipRenderer *panes[2] = {stage.renderer, stage_make_renderer(&stage.def)};
+        const DipScene *fast = stage.scene;
         DipFrame frame;
-        assert_true(panes[0] && panes[1]);
         assert_true(dip_allocation_count() > before); // proves that calls are counted
         // In the first frame, nothing is in view: the memory that it allocates does not depend on
         // the view.
@@ -155,17 +140,15 @@ static void frames_after_the_first_allocate_nothing(void **state) {
             assert_true(dip_renderer_draw(panes[p], fast, &away, 0, &frame, NULL));
         }
         // The textures are compressed in advance, so that no frame has to make compressed textures.
-        assert_true(dip_scene_compress_textures(fast, pool, NULL));
+        assert_true(dip_scene_compress_textures(stage.scene, stage.pool, NULL));
         assert_int_equal(draw_everything(panes, fast, scene.pose, true), 0);
         assert_true(dip_renderer_draw(panes[0], fast, &scene.pose, 0, &frame, NULL));
         assert_true(frame.effects.scattering.run == (kind == DIP_TEST_SCENE_COUNT));
         // The first frame without instancing creates a mesh for each object.
         (void)draw_everything(panes, fast, scene.pose, false);
         assert_int_equal(draw_everything(panes, fast, scene.pose, false), 0);
-        dip_renderer_destroy(&panes[0]);
         dip_renderer_destroy(&panes[1]);
-        dip_pool_destroy(&pool);
-        dip_scene_destroy(&fast);
+        stage_close(&stage);
         dip_test_scene_free(&scene);
     }
 }

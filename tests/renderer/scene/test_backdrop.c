@@ -2,6 +2,7 @@
 // whole numbers, at sizes that halve evenly and at others, and against means of the pixels.
 #include "renderer/base/pool.h"
 #include "renderer/scene/draw/backdrop.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -37,11 +38,6 @@ static uint32_t channel_of(const DipBackdrop *levels, int level, int x, int y, i
     const int32_t *texel =
         levels->texels + 2 * (levels->first[level] + y * levels->width[level] + x);
     return c == 2 ? (uint32_t)texel[1] : (uint32_t)texel[0] >> 16 * c & 65535U;
-}
-
-static double decode(int code) {
-    const double x = code / 255.0;
-    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
 // Returns which part of a texel of `to` along an axis lies in texel i of `from`, in units that add
@@ -95,7 +91,7 @@ static void each_level_is_the_mean_of_the_one_before(void **state) {
             for (int x = 0; x < 3 * sizes[s][0]; x++) {
                 const uint8_t *row =
                     backdrop.target.rgba8 + (size_t)y * backdrop.target.stride_bytes;
-                const double light = 65535.0 * decode(row[x / 3 * 4 + x % 3]);
+                const double light = 65535.0 * srgb_light(row[x / 3 * 4 + x % 3]);
                 assert_true(fabs(channel_of(levels, 0, x / 3, y, x % 3) - light) <= 0.501);
             }
         }
@@ -124,7 +120,7 @@ static void a_level_is_the_mean_of_the_pixels(void **state) {
                 const size_t y = (size_t)(y0 + i / CELL);
                 const size_t x = (size_t)(x0 + i % CELL);
                 const uint8_t *row = backdrop.target.rgba8 + y * backdrop.target.stride_bytes;
-                sum += 65535.0 * decode(row[4 * x + (size_t)c]);
+                sum += 65535.0 * srgb_light(row[4 * x + (size_t)c]);
             }
             const double found = channel_of(&backdrop.levels, LEVEL, x0 / CELL, y0 / CELL, c);
             assert_true(fabs(found - sum / (CELL * CELL)) <= 0.5 * (LEVEL + 1));

@@ -1,13 +1,14 @@
 // Tests blended surfaces: colours against closed forms, the order from far to near, and scenes of
 // panes against the reference renderer, which sorts each sample by itself.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
 
 #include "renderer/reference/reference.h"
 #include "renderer/scene/draw/blend_order.h"
 #include "renderer/scene/motion.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/blended_pieces.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,54 +25,14 @@ enum { WIDTH = 160, HEIGHT = 120 };
 
 static AuthorScene scene;
 
-// A renderer for `scene`.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
-static Stage open_stage(const char *settings, const DipReflectionDef *reflection) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(2, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    if (reflection) {
-        def.reflection = *reflection;
-    }
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    stage.renderer = dip_renderer_create(&def, NULL);
-    if (!stage.scene) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
+static Stage open_stage(const char *settings) {
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
+    def.reflection = scene.reflection;
+    return stage_open(&scene.def, def, 2);
 }
 
 static DipFrame draw(const Stage *stage) {
-    DipFrame frame;
-    DipError err = {0};
-    if (!dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return frame;
-}
-
-static const uint8_t *centre_of(const DipFrame *frame) {
-    return frame->rgba8 + HEIGHT / 2 * frame->stride_bytes + WIDTH / 2 * 4;
-}
-
-static int encode(double x) {
-    return (int)lround(255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055));
+    return stage_draw(stage, &scene.pose, 0);
 }
 
 // --- closed forms --------------------------------------------------------------------------------
@@ -106,7 +67,7 @@ static void panes_blend_from_far_to_near_in_linear_light(void **state) {
             add_pane(DIP_SURFACE_BLENDED, colours[pane], opacities[pane], (float)pane);
         }
         add_pane(DIP_SURFACE_OPAQUE, (const float[]){0.5f, 0.5f, 0.5f}, 1.0f, -1.0f);
-        Stage stage = open_stage(o % 2 ? "aa=none" : "aa=4", NULL);
+        Stage stage = open_stage(o % 2 ? "aa=none" : "aa=4");
         const DipFrame frame = draw(&stage);
         for (int c = 0; c < 3; c++) {
             double expected = 0.5;
@@ -114,14 +75,14 @@ static void panes_blend_from_far_to_near_in_linear_light(void **state) {
                 expected = (double)colours[pane][c] * (double)opacities[pane] +
                            expected * (1.0 - (double)opacities[pane]);
             }
-            assert_true(abs(centre_of(&frame)[c] - encode(expected)) <= 1);
+            assert_true(abs(dip_image_centre(&frame)[c] - srgb_code(expected)) <= 1);
         }
-        assert_int_equal(centre_of(&frame)[3], 255);
+        assert_int_equal(dip_image_centre(&frame)[3], 255);
         assert_true(frame.effects.blend.run);
         // Where two triangles meet in a pixel, each has a fragment.
         assert_true(frame.counters.fragments_blended >= 3 * WIDTH * HEIGHT);
         assert_true(o % 2 == 0 || frame.counters.fragments_blended == 3 * WIDTH * HEIGHT);
-        close_stage(&stage);
+        stage_close(&stage);
         author_free(&scene);
     }
 }
@@ -131,14 +92,14 @@ static void what_is_behind_a_wall_is_hidden(void **state) {
     author_begin(&scene);
     add_pane(DIP_SURFACE_BLENDED, red, 0.5f, -1.0f);
     add_pane(DIP_SURFACE_OPAQUE, green, 1.0f, 0.0f);
-    Stage stage = open_stage("aa=2", NULL);
+    Stage stage = open_stage("aa=2");
     const DipFrame frame = draw(&stage);
     for (int c = 0; c < 3; c++) {
-        assert_int_equal(centre_of(&frame)[c], encode((double)green[c]));
+        assert_int_equal(dip_image_centre(&frame)[c], srgb_code((double)green[c]));
     }
     assert_false(frame.effects.blend.run);
     assert_string_equal(frame.effects.blend.why, "no fragment of it is visible");
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -153,13 +114,13 @@ static void the_texture_has_alpha(void **state) {
     }
     add_pane(DIP_SURFACE_BLENDED, blue, 0.5f, 0.0f);
     scene.materials[0].colour_texture = texture;
-    Stage stage = open_stage("aa=none", NULL);
+    Stage stage = open_stage("aa=none");
     const DipFrame frame = draw(&stage);
     for (int c = 0; c < 3; c++) {
-        const int expected = encode((double)blue[c] * 0.5 * 102.0 / 255.0);
-        assert_true(abs(centre_of(&frame)[c] - expected) <= 1);
+        const int expected = srgb_code((double)blue[c] * 0.5 * 102.0 / 255.0);
+        assert_true(abs(dip_image_centre(&frame)[c] - expected) <= 1);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -173,10 +134,10 @@ static void both_sides_of_a_double_sided_pane_are_seen(void **state) {
         scene.objects[object].transform[10] = -1.0f;
         scene.objects[object].transform[3] = 9.0f;
         scene.materials[0].double_sided = two_sided;
-        Stage stage = open_stage("aa=none", NULL);
+        Stage stage = open_stage("aa=none");
         const DipFrame frame = draw(&stage);
-        assert_int_equal(centre_of(&frame)[1], two_sided ? encode(0.4) : 0);
-        close_stage(&stage);
+        assert_int_equal(dip_image_centre(&frame)[1], two_sided ? srgb_code(0.4) : 0);
+        stage_close(&stage);
         author_free(&scene);
     }
 }
@@ -190,7 +151,7 @@ static void reading_samples_leaves_the_frame_as_it_is(void **state) {
     author_begin(&scene);
     add_pane(DIP_SURFACE_BLENDED, red, 0.5f, 1.0f);
     add_pane(DIP_SURFACE_OPAQUE, green, 1.0f, 0.0f);
-    Stage stage = open_stage("aa=4", NULL);
+    Stage stage = open_stage("aa=4");
     const DipFrame frame = draw(&stage);
     char hashes[2][33];
     dip_frame_hash(&frame, hashes[0]);
@@ -199,7 +160,7 @@ static void reading_samples_leaves_the_frame_as_it_is(void **state) {
     dip_frame_hash(&frame, hashes[1]);
     assert_string_equal(hashes[0], hashes[1]);
     assert_int_equal(samples[0].linear16[1], lround(0.8 * 65535.0));
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -262,42 +223,20 @@ static void depths_are_measured_along_the_view_axis(void **state) {
 
 // --- against the reference -----------------------------------------------------------------------
 
-// Draws the picture of the reference. The caller frees it.
-static double *draw_reference(const Stage *stage, const DipReflectionDef *reflection) {
-    DipError err = {0};
-    const DipQuality quality = dip_renderer_quality(stage->renderer);
-    DipReference *reference = dip_reference_create(&scene.def, &err);
-    assert_non_null(reference);
-    if (reflection) {
-        dip_reference_set_reflection(reference, reflection);
-    }
-    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
-    assert_non_null(rgb_lin);
-    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
-    dip_reference_destroy(&reference);
-    return rgb_lin;
-}
-
-static void compare(const char *name, const char *settings, const DipReflectionDef *reflection) {
-    Stage stage = open_stage(settings, reflection);
-    const DipFrame frame = draw(&stage);
-    double *rgb_lin = draw_reference(&stage, reflection);
-    const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
-    printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
-           error.max_lin, error.over_count, error.psnr_db);
+static void compare(const char *name, const char *settings) {
     static const DipImageBounds bounds = {
         .rms_lin = 0.004, .pixel_lin = 0.02, .over_share = 0.003, .over_max_lin = 0.6};
-    assert_true(dip_image_check(name, rgb_lin, &frame, &bounds));
-    free(rgb_lin);
-    close_stage(&stage);
+    Stage stage = open_stage(settings);
+    stage_compare(&stage, &scene.pose, name, settings, &bounds);
+    stage_close(&stage);
 }
 
 static void panes_equal_the_reference(void **state) {
     (void)state;
     author_make_panes(&scene);
-    compare("panes", "aa=none", NULL);
-    compare("panes", "aa=4,af=8", NULL);
-    compare("panes", "aa=8,aaa=on,asd=1", NULL);
+    compare("panes", "aa=none");
+    compare("panes", "aa=4,af=8");
+    compare("panes", "aa=8,aaa=on,asd=1");
     author_free(&scene);
 }
 
@@ -340,16 +279,16 @@ static void free_shells(void) {
 // Returns the error of a picture of the shells against the reference, which sorts each sample.
 static double error_of_shells(bool linked, const char *settings) {
     make_shells(linked);
-    Stage stage = open_stage(settings, NULL);
+    Stage stage = open_stage(settings);
     const DipFrame frame = draw(&stage);
-    double *rgb_lin = draw_reference(&stage, NULL);
+    double *rgb_lin = stage_draw_reference(&stage, &scene.pose);
     const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
     printf("shells %s, %s: rms %.5f, %zu pixels over 0.02\n", linked ? "linked" : "apart", settings,
            error.rms_lin, error.over_count);
     assert_int_equal(dip_scene_triangle_count(stage.scene),
                      scene.meshes[scene.objects[0].mesh].index_count / 3);
     free(rgb_lin);
-    close_stage(&stage);
+    stage_close(&stage);
     free_shells();
     return error.rms_lin;
 }
@@ -488,14 +427,8 @@ static void pieces_move_with_their_object(void **state) {
 static void water_mirrors_panes(void **state) {
     (void)state;
     author_make_panes(&scene);
-    const int water = author_add_pbr(&scene, 0.0f, 1.0f);
-    scene.materials[water].surface = DIP_SURFACE_WATER;
-    scene.materials[water].pbr = NULL;
-    scene.materials[water].base_colour_lin[0] = 0.05f;
-    author_add_quad(&scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
-                    (const float[]){0, 0, -8});
-    const DipReflectionDef reflection = {.width = WIDTH, .height = HEIGHT, .level_m = -1.0};
-    compare("panes_in_water", "aa=2", &reflection);
+    author_add_water(&scene, WIDTH, HEIGHT);
+    compare("panes_in_water", "aa=2");
     author_free(&scene);
 }
 
@@ -513,18 +446,12 @@ static void water_is_seen_through(void **state) {
     scene.materials[sunk].base_colour_lin[1] = 0.05f;
     author_add_quad(&scene, sunk, (const float[]){-0.8f, -1.5f, 3.5f}, (const float[]){1.6f, 0, 0},
                     (const float[]){0, 0, -3});
-    const int water = author_add_pbr(&scene, 0.0f, 1.0f);
-    scene.materials[water].surface = DIP_SURFACE_WATER;
-    scene.materials[water].pbr = NULL;
-    scene.materials[water].base_colour_lin[0] = 0.05f;
-    scene.materials[water].transmission = 0.8f;
-    author_add_quad(&scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
-                    (const float[]){0, 0, -8});
-    const DipReflectionDef reflection = {.width = WIDTH, .height = HEIGHT, .level_m = -1.0};
-    compare("panes_under_water", "aa=none", &reflection);
-    compare("panes_under_water", "aa=4,aaa=all,asd=1", &reflection);
-    compare("panes_under_water", "aa=8,taa=on,aaa=coverage", &reflection);
-    compare("panes_under_plain_water", "aa=2", NULL);
+    scene.materials[author_add_water(&scene, WIDTH, HEIGHT)].transmission = 0.8f;
+    compare("panes_under_water", "aa=none");
+    compare("panes_under_water", "aa=4,aaa=all,asd=1");
+    compare("panes_under_water", "aa=8,taa=on,aaa=coverage");
+    scene.reflection.width = 0;
+    compare("panes_under_plain_water", "aa=2");
     author_free(&scene);
 }
 

@@ -2,8 +2,9 @@
 // Tests that clouds repeat after exact periods, and that a scene without these effects takes no
 // work or memory for them.
 #include "renderer/scene/materials/sky.h"
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
+#include "tests/renderer/scene/vec.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -20,59 +21,17 @@ static const int64_t second_ns = INT64_C(1000000000);
 
 static DipTestScene scene;
 
-// A renderer for `scene`.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
 static Stage open_stage(bool plain_surfaces) {
-    Stage stage = {.pool = dip_pool_create(1, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, NULL)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
-    def.width = SIZE;
-    def.height = SIZE;
+    DipRendererDef def = stage_def(SIZE, SIZE, "");
     def.plain_surfaces = plain_surfaces;
-    stage.renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(stage.scene);
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
+    return stage_open(&scene.def, def, 1);
 }
 
 static DipFrame draw(const Stage *stage, int64_t time_ns) {
-    DipFrame frame;
-    assert_true(
-        dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, time_ns, &frame, NULL));
-    return frame;
+    return stage_draw(stage, &scene.pose, time_ns);
 }
 
 // --- normal maps -------------------------------------------------------------------------------
-
-typedef double Vec[3];
-
-static double dot(const Vec a, const Vec b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void unit(Vec v) {
-    const double length = sqrt(dot(v, v));
-    for (int i = 0; i < 3; i++) {
-        v[i] /= length;
-    }
-}
-
-static double decode(uint8_t code) {
-    const double x = code / 255.0;
-    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
-}
 
 // Makes a wall in front of the eye, seen straight on. All texels of its normal map have the same
 // normal.
@@ -135,12 +94,10 @@ static void check_wall(const int code[3], const float uv0[8], bool from_behind, 
         n[2] = 1.0;
     }
     const double expected = expected_light(n, sqrt(dot(m, m)));
-    const uint8_t *pixel =
-        frame.rgba8 + (size_t)(SIZE / 2) * frame.stride_bytes + (size_t)(SIZE / 2) * 4;
-    assert_float_equal(decode(pixel[1]), expected, 0.006);
+    assert_float_equal(srgb_light(dip_image_centre(&frame)[1]), expected, 0.006);
     assert_int_equal(frame.counters.fragments_normal_mapped, frame.counters.fragments_shaded);
     assert_true(frame.effects.normal_map.run);
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -171,10 +128,8 @@ static void normals_that_cancel_out_leave_the_meshs_normal(void **state) {
     Stage stage = open_stage(false);
     const DipFrame frame = draw(&stage, 0);
     const double expected = expected_light((Vec){0.0, 0.0, 1.0}, 0.125);
-    const uint8_t *pixel =
-        frame.rgba8 + (size_t)(SIZE / 2) * frame.stride_bytes + (size_t)(SIZE / 2) * 4;
-    assert_float_equal(decode(pixel[1]), expected, 0.006);
-    close_stage(&stage);
+    assert_float_equal(srgb_light(dip_image_centre(&frame)[1]), expected, 0.006);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -255,7 +210,7 @@ static void clouds_move_and_repeat_exactly_after_their_period(void **state) {
         hash_at(&stage, t + second_ns, again);
         assert_string_not_equal(first, again);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -274,18 +229,18 @@ static void scenes_without_effects_spend_nothing_on_them(void **state) {
     assert_string_equal(frame.effects.sky.why, "the scene has no sky with clouds");
     char hash[33], other[33];
     dip_frame_hash(&frame, hash);
-    close_stage(&stage);
+    stage_close(&stage);
     // If no light falls on a surface, its normal map is neither created nor drawn.
     scene.materials[0].lit = false;
     scene.materials[0].light_map = DIP_NO_TEXTURE;
     stage = open_stage(false);
     const uint64_t unlit_bytes = dip_scene_texture_bytes(stage.scene);
-    close_stage(&stage);
+    stage_close(&stage);
     assert_true(unlit_bytes < bytes);
     scene.materials[0].normal_map = dip_test_scene_add_bumps(&scene, 64);
     stage = open_stage(false);
     assert_int_equal(dip_scene_texture_bytes(stage.scene), unlit_bytes);
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
     // With def.plain_surfaces, a normal-mapped scene has the same bits as the scene without its
     // maps.
@@ -293,14 +248,14 @@ static void scenes_without_effects_spend_nothing_on_them(void **state) {
     stage = open_stage(true);
     hash_at(&stage, 0, hash);
     assert_false(draw(&stage, 0).effects.normal_map.run);
-    close_stage(&stage);
+    stage_close(&stage);
     for (int i = 0; i < scene.def.material_count; i++) {
         scene.materials[i].normal_map = DIP_NO_TEXTURE;
     }
     stage = open_stage(false);
     hash_at(&stage, 0, other);
     assert_string_equal(hash, other);
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -317,7 +272,7 @@ static void only_effects_that_the_scene_has_take_memory(void **state) {
         assert_int_equal(counters.cloud_bytes > 0, all || kind == DIP_TEST_SCENE_sky);
         assert_int_equal(counters.clip_map_bytes > 0, all || lit || kind == DIP_TEST_SCENE_fence ||
                                                           kind == DIP_TEST_SCENE_blending);
-        close_stage(&stage);
+        stage_close(&stage);
         // Alpha that clips nothing is not stored.
         for (int i = 0; i < scene.def.material_count; i++) {
             if (scene.materials[i].surface == DIP_SURFACE_CLIPPED ||
@@ -327,7 +282,7 @@ static void only_effects_that_the_scene_has_take_memory(void **state) {
         }
         stage = open_stage(false);
         assert_int_equal(draw(&stage, 0).counters.clip_map_bytes, 0);
-        close_stage(&stage);
+        stage_close(&stage);
         dip_test_scene_free(&scene);
     }
 }
@@ -347,7 +302,7 @@ static void effects_out_of_view_do_not_run(void **state) {
         frame = draw(&stage, 0);
         assert_false((i ? frame.effects.sky : frame.effects.normal_map).run);
         assert_int_equal(frame.counters.fragments_shaded, 0);
-        close_stage(&stage);
+        stage_close(&stage);
         dip_test_scene_free(&scene);
     }
 }

@@ -1,12 +1,11 @@
 // Tests environments: the blurred map and the reference's sums against a sum over all texels,
 // closed forms, and pictures of balls against the reference renderer.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
 
 #include "renderer/base/isa.h"
 #include "renderer/reference/internal/internal.h"
 #include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/environment.h"
 
 #include <math.h>
@@ -294,42 +293,23 @@ static void the_map_has_the_same_bits_everywhere(void **state) {
 
 // Draws the scene. The caller frees the pixels, which have no gaps.
 static uint8_t *draw(const char *settings, DipIsa isa, DipFrame *frame) {
-    DipError err = {0};
-    DipRendererDef def = dip_renderer_default_def();
-    def.width = WIDTH;
-    def.height = HEIGHT;
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.isa = isa;
-    def.pool = dip_pool_create(2, NULL);
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipScene *made = dip_scene_create(&scene.def, def.pool, &err);
-    DipRenderer *renderer = dip_renderer_create(&def, &err);
-    if (!made || !renderer) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    assert_true(dip_renderer_draw(renderer, made, &scene.pose, 0, frame, &err));
+    Stage stage = stage_open(&scene.def, def, 2);
+    *frame = stage_draw(&stage, &scene.pose, 0);
     uint8_t *pixels = malloc((size_t)4 * WIDTH * HEIGHT);
     assert_non_null(pixels);
-    for (int y = 0; y < HEIGHT; y++) {
-        memcpy(pixels + (size_t)4 * WIDTH * (size_t)y,
-               frame->rgba8 + (size_t)y * frame->stride_bytes, (size_t)4 * WIDTH);
-    }
+    dip_image_copy(frame, pixels);
     frame->rgba8 = pixels;
     frame->stride_bytes = (size_t)4 * WIDTH;
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&def.pool);
+    stage_close(&stage);
     return pixels;
 }
 
 static void compare(const char *name, const char *settings, double least_db) {
-    DipFrame frame;
-    DipError err = {0};
-    DipQuality quality;
-    uint8_t *pixels = draw(settings, dip_isa_best(), &frame);
-    DipReference *reference = dip_reference_create(&scene.def, &err);
-    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
-    assert_true(reference && rgb_lin && dip_quality_parse(settings, &quality, NULL));
-    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
+    Stage stage = stage_open(&scene.def, stage_def(WIDTH, HEIGHT, settings), 2);
+    const DipFrame frame = stage_draw(&stage, &scene.pose, 0);
+    double *rgb_lin = stage_draw_reference(&stage, &scene.pose);
     const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
     printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
            error.max_lin, error.over_count, error.psnr_db);
@@ -340,8 +320,7 @@ static void compare(const char *name, const char *settings, double least_db) {
                  error.psnr_db, least_db, error.over_count);
     }
     free(rgb_lin);
-    free(pixels);
-    dip_reference_destroy(&reference);
+    stage_close(&stage);
 }
 
 static void balls_equal_the_reference(void **state) {

@@ -1,11 +1,9 @@
 // Tests scenes far from the origin of the world: a scene and its camera that move together show the
 // same picture, and projected vertices keep their precision.
 #include "renderer/scene/draw/draws.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/scene_layout.h"
 #include "renderer/catalogue/random.h"
-#include "tests/renderer/scene/image.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,89 +20,9 @@ enum { WIDTH = 160, HEIGHT = 120 };
 
 // --- scenes that move together with the camera -------------------------------------------------
 
-// Scenes are enlarged by this factor and rounded to whole metres, so that floats hold their
-// positions even 10,000 km from the origin.
+// Floats hold the positions of scenes that are enlarged by this factor even 10,000 km from the
+// origin.
 #define ENLARGED 64.0f
-
-static bool is_placed(const DipObjectDef *object) {
-    static const float identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    return memcmp(object->transform, identity, sizeof identity) != 0;
-}
-
-static void enlarge(float *value) {
-    *value = roundf(*value * ENLARGED);
-}
-
-// Enlarges a scene. Objects with a transform keep their mesh.
-static void enlarge_scene(DipTestScene *scene) {
-    for (int i = 0; i < scene->def.object_count; i++) {
-        DipObjectDef *object = &scene->objects[i];
-        if (is_placed(object)) {
-            for (int k = 0; k < 12; k++) {
-                object->transform[k] *= ENLARGED;
-            }
-            for (int axis = 0; axis < 3; axis++) {
-                object->transform[4 * axis + 3] = roundf(object->transform[4 * axis + 3]);
-            }
-            continue;
-        }
-        const DipMeshDef *mesh = &scene->meshes[object->mesh];
-        for (uint32_t k = 0; k < 3 * mesh->vertex_count; k++) {
-            enlarge((float *)mesh->positions + k);
-        }
-    }
-    scene->def.near_m *= ENLARGED;
-    dip_test_scene_enlarge_lights(scene, ENLARGED);
-    scene->reflection.level_m = round(scene->reflection.level_m * (double)ENLARGED);
-    for (int axis = 0; axis < 3; axis++) {
-        scene->pose.position_world[axis] =
-            round(scene->pose.position_world[axis] * (double)ENLARGED * 16.0) / 16.0;
-    }
-}
-
-// Moves a scene and its camera. Objects without a transform are moved by their vertices.
-static void move_scene(DipTestScene *scene, const double by[3]) {
-    for (int i = 0; i < scene->def.object_count; i++) {
-        DipObjectDef *object = &scene->objects[i];
-        const DipMeshDef *mesh = &scene->meshes[object->mesh];
-        for (uint32_t v = 0; !is_placed(object) && v < mesh->vertex_count; v++) {
-            for (int axis = 0; axis < 3; axis++) {
-                ((float *)mesh->positions)[3 * v + (uint32_t)axis] += (float)by[axis];
-            }
-        }
-        for (int axis = 0; is_placed(object) && axis < 3; axis++) {
-            object->transform[4 * axis + 3] += (float)by[axis];
-        }
-    }
-    dip_test_scene_move_lights(scene, by);
-    scene->reflection.level_m += by[1];
-    for (int axis = 0; axis < 3; axis++) {
-        scene->pose.position_world[axis] += by[axis];
-    }
-}
-
-// Draws a scene into `pixels`, which is WIDTH * HEIGHT pixels large.
-static void draw(const DipTestScene *scene, const char *settings, uint32_t *pixels) {
-    DipPool *pool = dip_pool_create(1, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipScene *made = dip_scene_create(&scene->def, NULL, NULL);
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    DipFrame frame;
-    assert_non_null(made);
-    assert_non_null(renderer);
-    assert_true(dip_renderer_draw(renderer, made, &scene->pose, 0, &frame, NULL));
-    for (int y = 0; y < HEIGHT; y++) {
-        memcpy(pixels + y * WIDTH, frame.rgba8 + (size_t)y * frame.stride_bytes, 4 * WIDTH);
-    }
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&pool);
-}
 
 static double squared_difference(uint32_t a, uint32_t b) {
     double sum = 0.0;
@@ -127,11 +45,11 @@ static Difference difference_of(DipTestSceneKind kind, const char *settings, con
     for (int moved = 0; moved < 2; moved++) {
         DipTestScene scene;
         dip_test_scene_make(&scene, kind);
-        enlarge_scene(&scene);
+        dip_test_scene_enlarge(&scene, ENLARGED);
         if (moved) {
-            move_scene(&scene, by);
+            dip_test_scene_move(&scene, by);
         }
-        draw(&scene, settings, pictures[moved]);
+        stage_draw_scene(&scene, WIDTH, HEIGHT, settings, pictures[moved]);
         dip_test_scene_free(&scene);
     }
     Difference difference = {0, 0.0};

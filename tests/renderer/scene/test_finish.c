@@ -3,6 +3,7 @@
 #include "renderer/catalogue/scenes.h"
 #include "renderer/post/post.h"
 #include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/image.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -45,9 +46,7 @@ static DipFrame draw(const char *settings, uint8_t pixels[WIDTH * HEIGHT * 4]) {
     assert_true(dip_quality_parse(settings, &quality, NULL));
     assert_true(dip_renderer_set_quality(renderer, &quality, NULL));
     assert_true(dip_renderer_draw(renderer, scene, &test_scene.pose, 0, &frame, NULL));
-    for (size_t y = 0; y < HEIGHT; y++) {
-        memcpy(pixels + y * WIDTH * 4, frame.rgba8 + y * frame.stride_bytes, (size_t)WIDTH * 4);
-    }
+    dip_image_copy(&frame, pixels);
     return frame;
 }
 

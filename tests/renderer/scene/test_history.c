@@ -1,10 +1,10 @@
 // taa=history: the result of every picture against a plain model in double precision that finds the
 // past of a pixel by intersecting its view ray with a plane; and what resets a history, what it
 // takes, and that its frames do not depend on threads, instruction sets or the frames before.
-#include "renderer/catalogue/scenes.h"
 #include "renderer/post/history.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/scene/view/view.h"
+#include "tests/renderer/scene/stage.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -35,17 +35,13 @@ static void fill(Picture picture) {
     }
 }
 
-// 16-bit linear light of a code, and the code of 16-bit linear light (IEC 61966-2-1).
+// 16-bit linear light of a code, and the code of 16-bit linear light.
 static double light_of(int code) {
-    const double v = code / 255.0;
-    const double linear = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-    return floor(65535.0 * linear + 0.5);
+    return floor(65535.0 * srgb_light(code) + 0.5);
 }
 
 static int code_of(double light) {
-    const double v = floor(light + 0.5) / 65535.0;
-    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1.0 / 2.4) - 0.055;
-    return (int)floor(255.0 * encoded + 0.5);
+    return srgb_code(floor(light + 0.5) / 65535.0);
 }
 
 static DipHistory *make(DipIsa isa, DipPool *pool) {
@@ -389,15 +385,10 @@ static int tear_down(void **state) {
 }
 
 static DipRenderer *renderer_with(const char *settings, DipPool *pool, DipIsa isa) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.width = WIDTH;
-    def.height = HEIGHT;
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.pool = pool;
     def.isa = isa;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
+    return stage_make_renderer(&def);
 }
 
 // Draws a frame of a camera that moves with `index` unless it is at rest.

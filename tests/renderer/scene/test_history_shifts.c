@@ -1,7 +1,7 @@
 // taa=history: the shifts of its frames. Frames that show the same from the same camera, each of
 // which begins a history, show what the samples of the patterns of taa=alternate see.
-#include "renderer/catalogue/scenes.h"
-#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/stage.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,20 +15,9 @@
 
 enum { WIDTH = 83, HEIGHT = 61, PIXELS = WIDTH * HEIGHT };
 
-// Linear light of a code (IEC 61966-2-1).
-static double light_of(int code) {
-    const double v = code / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
-
 static DipRenderer *renderer_with(const char *settings) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
+    const DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
+    return stage_make_renderer(&def);
 }
 
 // White slats before black, at many angles.
@@ -58,7 +47,7 @@ static void add_white(DipRenderer *renderer, const DipScene *slats, const DipPos
         const uint8_t *rgb =
             frame.rgba8 + (size_t)(i / WIDTH) * frame.stride_bytes + 4 * (i % WIDTH);
         int white = 0;
-        while (white < samples && light_of(rgb[0]) > (white + 0.5) / samples) {
+        while (white < samples && srgb_light(rgb[0]) > (white + 0.5) / samples) {
             white++;
         }
         counts[i] += white;

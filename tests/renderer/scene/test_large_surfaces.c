@@ -1,7 +1,6 @@
 // Tests surfaces that are large and pass close by the eye: what is computed from their far corners
 // keeps its precision near the eye.
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -13,27 +12,6 @@
 #include <cmocka.h>
 
 enum { WIDTH = 160, HEIGHT = 120 };
-
-// Draws a scene into `pixels`, which is WIDTH * HEIGHT pixels large.
-static void draw(const DipTestScene *scene, uint32_t *pixels) {
-    DipPool *pool = dip_pool_create(1, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    DipScene *made = dip_scene_create(&scene->def, NULL, NULL);
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    DipFrame frame;
-    assert_non_null(made);
-    assert_non_null(renderer);
-    assert_true(dip_renderer_draw(renderer, made, &scene->pose, 0, &frame, NULL));
-    for (int y = 0; y < HEIGHT; y++) {
-        memcpy(pixels + y * WIDTH, frame.rgba8 + (size_t)y * frame.stride_bytes, 4 * WIDTH);
-    }
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&pool);
-}
 
 static int red_of(uint32_t pixel) {
     return (int)(pixel & 255);
@@ -107,7 +85,7 @@ static void a_floor_close_below_the_eye_is_seen_from_above(void **state) {
             make_close_floor(&scene, height);
             turn_camera(&scene.pose, turns[i]);
             scene.pose.fov_y_deg = 120.0;
-            draw(&scene, pixels);
+            stage_draw_scene(&scene, WIDTH, HEIGHT, "", pixels);
             int lit = 0, dark = 0;
             for (int p = 0; p < WIDTH * HEIGHT; p++) {
                 lit += red_of(pixels[p]) > 128;
@@ -148,7 +126,7 @@ static void interpolated_normals_that_nearly_cancel_out_have_the_length_1(void *
     static uint32_t pixels[WIDTH * HEIGHT];
     DipTestScene scene;
     make_wall(&scene);
-    draw(&scene, pixels);
+    stage_draw_scene(&scene, WIDTH, HEIGHT, "", pixels);
     for (int p = 0; p < WIDTH * HEIGHT; p++) {
         const int from_middle = p % WIDTH - WIDTH / 2;
         const int expected = from_middle > 0 ? 255 : 0;

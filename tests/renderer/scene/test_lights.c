@@ -3,8 +3,9 @@
 // lights that are left out because they are too far away, and descriptions that are refused.
 #include "renderer/scene/lights.h"
 
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
+#include "tests/renderer/scene/vec.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -23,44 +24,15 @@ enum { SIZE = 64 };
 
 static DipTestScene scene;
 
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
 static Stage open_stage(bool force_all) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(1, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
-    def.width = SIZE;
-    def.height = SIZE;
+    DipRendererDef def = stage_def(SIZE, SIZE, "");
     def.force_all_effects = force_all;
     def.reflection = scene.reflection;
-    stage.renderer = dip_renderer_create(&def, NULL);
-    if (!stage.scene) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
+    return stage_open(&scene.def, def, 1);
 }
 
 static DipFrame draw(const Stage *stage) {
-    DipFrame frame;
-    assert_true(dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, NULL));
-    return frame;
-}
-
-static const uint8_t *pixel_at(const DipFrame *frame, int x, int y) {
-    return frame->rgba8 + (size_t)y * frame->stride_bytes + (size_t)x * 4;
+    return stage_draw(stage, &scene.pose, 0);
 }
 
 // Half of the width that the picture shows of the wall.
@@ -112,16 +84,6 @@ static void add_light(const DipLightDef *light) {
 }
 
 // --- the formulas of docs/picture.md, in other words -------------------------------------------
-
-typedef double Vec[3];
-
-static double dot(const Vec a, const Vec b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double length(const Vec v) {
-    return sqrt(dot(v, v));
-}
 
 static double degrees_between(const Vec a, const Vec b) {
     return acos(dot(a, b) / (length(a) * length(b))) * 180.0 / acos(-1.0);
@@ -182,10 +144,6 @@ static double expected_grey(double x, double y) {
     return fmin(1.0, 0.5 * diffuse + highlight);
 }
 
-static double encode(double lin) {
-    return 255.0 * (lin <= 0.0031308 ? 12.92 * lin : 1.055 * pow(lin, 1.0 / 2.4) - 0.055);
-}
-
 // Draws the wall and compares all pixels with the formulas. Returns the darkest and the brightest
 // level, so that a test can see that the light varies.
 static void check_wall(double most_codes, double *darkest, double *brightest) {
@@ -199,8 +157,8 @@ static void check_wall(double most_codes, double *darkest, double *brightest) {
         for (int x = 0; x < SIZE; x++) {
             const double right = ((x + 0.5) / SIZE * 2.0 - 1.0) * half_m;
             const double up = (1.0 - (y + 0.5) / SIZE * 2.0) * half_m;
-            const double expected = encode(expected_grey(right, up));
-            worst = fmax(worst, fabs(expected - pixel_at(&frame, x, y)[1]));
+            const double expected = 255.0 * srgb_encode(expected_grey(right, up));
+            worst = fmax(worst, fabs(expected - dip_image_pixel(&frame, x, y)[1]));
             *darkest = fmin(*darkest, expected);
             *brightest = fmax(*brightest, expected);
         }
@@ -208,7 +166,7 @@ static void check_wall(double most_codes, double *darkest, double *brightest) {
     if (worst > most_codes) {
         fail_msg("a pixel is %.2f codes from the formula, accepted %.2f", worst, most_codes);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -310,11 +268,11 @@ static void light_stays_finite_at_a_light(void **state) {
     const DipFrame frame = draw(&stage);
     for (int i = 0; i < SIZE; i++) {
         // The normal leans up, so only the part of the wall below the light sees it.
-        assert_int_equal(pixel_at(&frame, i, SIZE / 2 - 1)[0], 0);
-        assert_int_equal(pixel_at(&frame, i, SIZE / 2)[0], 255);
-        assert_int_equal(pixel_at(&frame, i, SIZE / 2)[1], 0);
+        assert_int_equal(dip_image_pixel(&frame, i, SIZE / 2 - 1)[0], 0);
+        assert_int_equal(dip_image_pixel(&frame, i, SIZE / 2)[0], 255);
+        assert_int_equal(dip_image_pixel(&frame, i, SIZE / 2)[1], 0);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -330,14 +288,14 @@ static void the_fixed_light_as_lights_draws_the_same_picture(void **state) {
         const DipFrame frame = draw(&stage);
         for (int y = 0; y < SIZE; y++) {
             for (int x = 0; x < SIZE; x++) {
-                const uint8_t *pixel = pixel_at(&frame, x, y);
+                const uint8_t *pixel = dip_image_pixel(&frame, x, y);
                 for (int c = 0; as_lights && c < 3; c++) {
                     assert_in_range(pixel[c] - fixed[y][x][c] + 1, 0, 2);
                 }
                 memcpy(fixed[y][x], pixel, 4);
             }
         }
-        close_stage(&stage);
+        stage_close(&stage);
         dip_test_scene_free(&scene);
     }
 }
@@ -358,7 +316,7 @@ static void lights_out_of_reach_change_no_bit(void **state) {
             const DipFrame frame = draw(&stage);
             dip_frame_hash(&frame, hashes[forced]);
             assert_true(frame.counters.fragments_lit > 0);
-            close_stage(&stage);
+            stage_close(&stage);
             dip_test_scene_free(&scene);
         }
         assert_string_equal(hashes[0], hashes[1]);
@@ -382,15 +340,15 @@ static void frames_tell_what_is_lit_drawn_and_culled(void **state) {
                         "no surface that the scene's lights light is in view");
     assert_int_equal(frame.counters.draws_in_view, 0);
     assert_int_equal(frame.counters.draws_culled, 1);
-    close_stage(&stage);
+    stage_close(&stage);
     scene.materials[0].lit = false;
     stage = open_stage(false);
     assert_string_equal(draw(&stage).effects.lights.why, "the scene's lights light no surface");
-    close_stage(&stage);
+    stage_close(&stage);
     scene.def.lighting = NULL;
     stage = open_stage(false);
     assert_string_equal(draw(&stage).effects.lights.why, "the scene has no lights of its own");
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 

@@ -4,8 +4,7 @@
 // The value that is read there therefore tells the level of detail.
 #include "renderer/reference/reference.h"
 #include "renderer/base/srgb.h"
-#include "renderer/catalogue/scenes.h"
-#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -78,26 +77,15 @@ static void make_square(DipTestScene *scene, bool as_light_map, double lambda) {
 
 // Draws the scene and returns the linear light of the pixel in the middle.
 static double draw_middle(const DipTestScene *scene, const char *settings, char hash[33]) {
-    DipRendererDef def = dip_renderer_default_def();
-    DipError err = {0};
-    DipFrame frame;
-    DipPool *pool = dip_pool_create(1, &err);
-    DipScene *made = dip_scene_create(&scene->def, NULL, &err);
-    def.pool = pool;
-    def.width = def.height = SIDE;
+    DipRendererDef def = stage_def(SIDE, SIDE, settings);
     def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(settings, &def.quality, &err));
-    DipRenderer *renderer = dip_renderer_create(&def, &err);
-    assert_non_null(made);
-    assert_non_null(renderer);
-    assert_true(dip_renderer_draw(renderer, made, &scene->pose, 0, &frame, &err));
-    const uint8_t code = frame.rgba8[SIDE / 2 * frame.stride_bytes + SIDE / 2 * 4];
+    Stage stage = stage_open(&scene->def, def, 1);
+    const DipFrame frame = stage_draw(&stage, &scene->pose, 0);
+    const uint8_t code = dip_image_centre(&frame)[0];
     if (hash) {
         dip_frame_hash(&frame, hash);
     }
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&pool);
+    stage_close(&stage);
     return dip_srgb_decode(code / 255.0);
 }
 
@@ -165,31 +153,19 @@ static void mip_colours_show_the_levels_that_fit(void **state) {
 
 // Draws a picture of which the mirrored picture is the top left corner, and hashes this corner.
 static void hash_mirrored(const char *settings, char corner[33], char whole[33]) {
-    DipRendererDef def = dip_renderer_default_def();
-    DipError err = {0};
-    DipFrame frame;
     DipTestScene scene;
     dip_test_scene_make(&scene, DIP_TEST_SCENE_water);
-    DipPool *pool = dip_pool_create(1, &err);
-    DipScene *made = dip_scene_create(&scene.def, NULL, &err);
-    def.pool = pool;
-    def.width = 320;
-    def.height = 240;
+    DipRendererDef def = stage_def(320, 240, settings);
     def.reflection = scene.reflection;
     def.reflection.show = true;
-    assert_true(dip_quality_parse(settings, &def.quality, &err));
-    DipRenderer *renderer = dip_renderer_create(&def, &err);
-    assert_non_null(made);
-    assert_non_null(renderer);
-    assert_true(dip_renderer_draw(renderer, made, &scene.pose, 0, &frame, &err));
+    Stage stage = stage_open(&scene.def, def, 1);
+    DipFrame frame = stage_draw(&stage, &scene.pose, 0);
     assert_true(frame.effects.reflection.run);
     dip_frame_hash(&frame, whole);
     frame.width = def.reflection.width < 64 ? def.reflection.width : 64;
     frame.height = def.reflection.height < 48 ? def.reflection.height : 48;
     dip_frame_hash(&frame, corner);
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&pool);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 

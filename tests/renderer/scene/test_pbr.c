@@ -2,11 +2,11 @@
 // hundreds of directions per pixel; every part against the reference renderer; that absent parts
 // cost nothing, that the plan names the parts, and that the tables are the same on every machine.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
+#include "vec.h"
 
-#include "renderer/reference/reference.h"
 #include "renderer/scene/materials/pbr.h"
-#include "renderer/scene/renderer.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -23,67 +23,24 @@ enum { WIDTH = 320, HEIGHT = 240 };
 
 static AuthorScene scene;
 
-// A renderer for `scene`.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
 static Stage open_stage_with(DipIsa isa, int threads, bool plain, const char *settings) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(threads, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.isa = isa;
-    def.width = WIDTH;
-    def.height = HEIGHT;
     def.plain_surfaces = plain;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    stage.renderer = dip_renderer_create(&def, NULL);
-    if (!stage.scene) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    assert_non_null(stage.renderer);
-    return stage;
+    return stage_open(&scene.def, def, threads);
 }
 
 static Stage open_stage(const char *settings) {
     return open_stage_with(dip_isa_best(), 1, false, settings);
 }
 
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
-}
-
 static DipFrame draw(const Stage *stage) {
-    DipFrame frame;
-    DipError err = {0};
-    if (!dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return frame;
+    return stage_draw(stage, &scene.pose, 0);
 }
 
 // --- the BRDF, sampled ---------------------------------------------------------------------------
 
-typedef double Vec[3];
-
 enum { SAMPLES = 256 };
-
-static double dot(const Vec a, const Vec b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void unit(Vec v) {
-    const double length = sqrt(dot(v, v));
-    for (int i = 0; i < 3; i++) {
-        v[i] /= length;
-    }
-}
 
 static double clamp01(double x) {
     return fmin(fmax(x, 0.0), 1.0);
@@ -255,8 +212,7 @@ static int find_ball(int x, int y, Spot *spot) {
 }
 
 static double encode(double x) {
-    const double y = clamp01(x);
-    return floor(255.0 * (y <= 0.0031308 ? 12.92 * y : 1.055 * pow(y, 1.0 / 2.4) - 0.055) + 0.5);
+    return floor(255.0 * srgb_encode(clamp01(x)) + 0.5);
 }
 
 typedef struct Errors {
@@ -307,7 +263,7 @@ static void add_pixel(const DipFrame *frame, int x, int y, bool sun, Errors *all
     if (sun) {
         add_sun(&pixel->spot, pixel->share, rgb);
     }
-    const uint8_t *codes = frame->rgba8 + (size_t)y * frame->stride_bytes + (size_t)x * 4;
+    const uint8_t *codes = dip_image_pixel(frame, x, y);
     for (int c = 0; c < 3; c++) {
         const double error = encode(rgb[c]) - codes[c];
         all->squares += error * error;
@@ -337,7 +293,7 @@ static void check_balls(bool sun) {
         assert_true(psnr_db(&balls[i]) >= 36.0);
     }
     assert_true(psnr_db(&all) >= 42.0);
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -369,24 +325,11 @@ static void tables_have_the_same_bits_everywhere(void **state) {
 // --- against the reference -----------------------------------------------------------------------
 
 static void compare_with_reference(const char *name, const char *settings) {
-    DipError err = {0};
-    Stage stage = open_stage(settings);
-    const DipFrame frame = draw(&stage);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
-    DipReference *reference = dip_reference_create(&scene.def, &err);
-    assert_non_null(reference);
-    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
-    assert_non_null(rgb_lin);
-    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
-    const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
-    printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
-           error.max_lin, error.over_count, error.psnr_db);
     static const DipImageBounds bounds = {
         .rms_lin = 0.004, .pixel_lin = 0.02, .over_share = 0.002, .over_max_lin = 0.5};
-    assert_true(dip_image_check(name, rgb_lin, &frame, &bounds));
-    free(rgb_lin);
-    dip_reference_destroy(&reference);
-    close_stage(&stage);
+    Stage stage = open_stage(settings);
+    stage_compare(&stage, &scene.pose, name, settings, &bounds);
+    stage_close(&stage);
 }
 
 static void all_parts_equal_the_reference(void **state) {
@@ -439,7 +382,7 @@ static void a_white_map_leaves_the_roughness_as_it_is(void **state) {
     uint8_t *expected = malloc(frame.stride_bytes * (size_t)HEIGHT);
     assert_non_null(expected);
     memcpy(expected, frame.rgba8, frame.stride_bytes * (size_t)HEIGHT);
-    close_stage(&stage);
+    stage_close(&stage);
 
     const int white = author_add_texture(&scene, 64, DIP_ENCODING_LINEAR);
     memset(author_texels(&scene, white), 255, (size_t)64 * 64 * 4);
@@ -455,7 +398,7 @@ static void a_white_map_leaves_the_roughness_as_it_is(void **state) {
     }
     assert_true(greatest <= 1);
     free(expected);
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -475,7 +418,7 @@ static void every_machine_and_thread_count_draws_the_same_bits(void **state) {
                 assert_string_equal(hash, expected);
             }
             memcpy(expected, hash, sizeof expected);
-            close_stage(&stage);
+            stage_close(&stage);
         }
     }
     author_free(&scene);
@@ -498,7 +441,7 @@ static void the_plan_names_the_parts_that_run(void **state) {
     assert_true(frame.effects.sheen.run);
     assert_true(frame.counters.fragments_sheen > 0);
     assert_true(frame.counters.fragments_sheen < frame.counters.fragments_pbr);
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -515,7 +458,7 @@ static void absent_parts_do_not_run(void **state) {
     assert_string_equal(frame.effects.sheen.why, "no metallic-roughness surface has a sheen");
     assert_int_equal(frame.counters.fragments_pbr, frame.counters.fragments_shaded);
     assert_int_equal(frame.counters.texture_probes, 0);
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -528,7 +471,7 @@ static void plain_surfaces_leave_the_reflection_out(void **state) {
     assert_false(frame.effects.pbr.run);
     assert_int_equal(frame.counters.fragments_pbr, 0);
     dip_frame_hash(&frame, hashes[0]);
-    close_stage(&plain);
+    stage_close(&plain);
     for (int i = 0; i < scene.def.material_count; i++) {
         scene.materials[i].pbr = NULL;
     }
@@ -536,7 +479,7 @@ static void plain_surfaces_leave_the_reflection_out(void **state) {
     frame = draw(&without);
     dip_frame_hash(&frame, hashes[1]);
     assert_string_equal(hashes[0], hashes[1]);
-    close_stage(&without);
+    stage_close(&without);
     author_free(&scene);
 }
 
@@ -550,10 +493,9 @@ static void unlit_surfaces_show_their_own_colour(void **state) {
                     (const float[]){0, 18, 0});
     Stage stage = open_stage("aa=none");
     const DipFrame frame = draw(&stage);
-    const uint8_t *pixel = frame.rgba8 + HEIGHT / 2 * frame.stride_bytes + WIDTH / 2 * 4;
-    assert_int_equal(pixel[0], 255);
+    assert_int_equal(dip_image_centre(&frame)[0], 255);
     assert_false(frame.effects.pbr.run);
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -575,8 +517,8 @@ static void the_normal_turns_where_a_sheet_is_seen_from_behind(void **state) {
                         (const float[]){width, 0, 0}, (const float[]){0, 18, 0});
         Stage stage = open_stage("aa=none");
         const DipFrame frame = draw(&stage);
-        seen[side] = frame.rgba8[HEIGHT / 2 * frame.stride_bytes + WIDTH / 2 * 4];
-        close_stage(&stage);
+        seen[side] = dip_image_centre(&frame)[0];
+        stage_close(&stage);
         author_free(&scene);
     }
     assert_true(seen[0] > 100);

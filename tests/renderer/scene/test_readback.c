@@ -2,8 +2,7 @@
 // bit, their depths lie at the positions of the published sample patterns, and reading them changes
 // no pixel of the frame.
 #include "renderer/pipeline/pattern.h"
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -17,47 +16,20 @@
 
 enum { WIDTH = 100, HEIGHT = 70, FRAME_BYTES = 4 * WIDTH * HEIGHT };
 
-static DipTestScene source;
-static DipPool *pool;
-static DipScene *scene;
-static DipRenderer *renderer;
+static Stage stage;
 
 static void open_scene(DipTestSceneKind kind) {
-    dip_test_scene_make(&source, kind);
-    pool = dip_pool_create(2, NULL);
-    scene = dip_scene_create(&source.def, NULL, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    def.reflection = source.reflection;
-    renderer = dip_renderer_create(&def, NULL);
-    assert_true(scene && renderer);
-}
-
-static void close_scene(void) {
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&scene);
-    dip_pool_destroy(&pool);
-    dip_test_scene_free(&source);
+    stage = stage_open_kind(kind, stage_def(WIDTH, HEIGHT, ""), 2);
 }
 
 static void set_quality(const char *text) {
     DipQuality quality;
     assert_true(dip_quality_parse(text, &quality, NULL));
-    assert_true(dip_renderer_set_quality(renderer, &quality, NULL));
+    assert_true(dip_renderer_set_quality(stage.renderer, &quality, NULL));
 }
 
 static DipFrame draw(void) {
-    DipFrame frame;
-    assert_true(dip_renderer_draw(renderer, scene, &source.pose, 0, &frame, NULL));
-    return frame;
-}
-
-static void copy_pixels(const DipFrame *frame, uint8_t *rgba8) {
-    for (int y = 0; y < HEIGHT; y++) {
-        memcpy(rgba8 + 4 * WIDTH * y, frame->rgba8 + (size_t)y * frame->stride_bytes, 4 * WIDTH);
-    }
+    return stage_draw(&stage, &stage.made->pose, 0);
 }
 
 // The caller frees the samples.
@@ -65,7 +37,8 @@ static DipSampleReadback read_region(DipTargetRegion region) {
     const DipSampleReadback readback = {region,
                                         calloc(dip_sample_room(&region), sizeof(DipSampleValue))};
     assert_non_null(readback.samples);
-    assert_true(dip_renderer_read_samples(renderer, scene, &source.pose, 0, &readback, NULL));
+    assert_true(dip_renderer_read_samples(stage.renderer, stage.scene, &stage.made->pose, 0,
+                                          &readback, NULL));
     return readback;
 }
 
@@ -127,21 +100,21 @@ static void test_mean_of_samples_is_the_pixel(void **state) {
         open_scene((DipTestSceneKind)kind);
         for (size_t q = 0; q < sizeof counts / sizeof *counts; q++) {
             set_quality(qualities[q]);
-            dip_renderer_set_frame_index(renderer, 7);
+            dip_renderer_set_frame_index(stage.renderer, 7);
             const DipFrame frame = draw();
             uint8_t before[FRAME_BYTES];
             uint8_t after[FRAME_BYTES];
-            copy_pixels(&frame, before);
+            dip_image_copy(&frame, before);
             for (size_t r = 0; r < sizeof regions / sizeof *regions; r++) {
                 const int mixed = check_region(regions[r], counts[q], before);
                 if (counts[q] == 1) {
                     assert_int_equal(mixed, 0);
                 }
-                copy_pixels(&frame, after);
+                dip_image_copy(&frame, after);
                 assert_memory_equal(before, after, sizeof before);
             }
         }
-        close_scene();
+        stage_close(&stage);
     }
 }
 
@@ -151,9 +124,9 @@ static void test_edges_have_samples_that_differ(void **state) {
     set_quality("aa=4,aaa=on");
     const DipFrame frame = draw();
     uint8_t before[FRAME_BYTES];
-    copy_pixels(&frame, before);
+    dip_image_copy(&frame, before);
     assert_true(check_region((DipTargetRegion){0, 0, WIDTH, HEIGHT}, 4, before) > WIDTH);
-    close_scene();
+    stage_close(&stage);
 }
 
 // --- positions -----------------------------------------------------------------------------------
@@ -217,7 +190,7 @@ static void test_samples_lie_at_published_positions(void **state) {
         }
         free(readback.samples);
     }
-    close_scene();
+    stage_close(&stage);
 }
 
 static void test_empty_samples_read_as_background(void **state) {
@@ -233,7 +206,7 @@ static void test_empty_samples_read_as_background(void **state) {
             const DipSampleValue *sample = &readback.samples[i + (size_t)s];
             assert_true((sample->patch == 0) == (sample->depth <= 0.0f));
             for (int c = 0; c < 3 && sample->patch == 0; c++) {
-                const float light = source.def.background_lin[c];
+                const float light = stage.made->def.background_lin[c];
                 assert_int_equal(sample->linear16[c], (int)(light * 65535.0f + 0.5f));
             }
             background += sample->patch == 0;
@@ -241,7 +214,7 @@ static void test_empty_samples_read_as_background(void **state) {
     }
     assert_true(background > 0);
     free(readback.samples);
-    close_scene();
+    stage_close(&stage);
 }
 
 static void test_bad_regions_are_refused(void **state) {
@@ -255,11 +228,12 @@ static void test_bad_regions_are_refused(void **state) {
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         const DipSampleReadback readback = {bad[i], room};
         DipError err = {0};
-        assert_false(dip_renderer_read_samples(renderer, scene, &source.pose, 0, &readback, &err));
+        assert_false(dip_renderer_read_samples(stage.renderer, stage.scene, &stage.made->pose, 0,
+                                               &readback, &err));
         assert_int_equal(err.code, DIP_ERROR_RANGE);
         assert_string_equal(err.key, "readback.region");
     }
-    close_scene();
+    stage_close(&stage);
 }
 
 int main(void) {

@@ -2,10 +2,9 @@
 // reflections. Also tests the plan, which decides per frame which effects are drawn: effects that
 // it leaves out must not be visible, and a scene without water must not take work for reflections.
 #include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/catalogue/random.h"
-#include "tests/renderer/scene/image.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
+#include "tests/support/srgb.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,39 +21,16 @@ enum { WIDTH = 192, HEIGHT = 144, MIRRORED_WIDTH = 96, MIRRORED_HEIGHT = 72 };
 
 static const double pi = 3.14159265358979323846;
 
-// A scene and its renderer, on one thread.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
 static Stage open_stage(const DipSceneDef *scene, int width, int height,
                         const DipReflectionDef *reflection, bool force_all) {
-    Stage stage = {.pool = dip_pool_create(1, NULL)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
-    def.width = width;
-    def.height = height;
+    DipRendererDef def = stage_def(width, height, "");
     def.reflection = *reflection;
     def.force_all_effects = force_all;
-    stage.scene = dip_scene_create(scene, NULL, NULL);
-    stage.renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(stage.scene);
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
+    return stage_open(scene, def, 1);
 }
 
 static DipFrame draw(const Stage *stage, const DipPose *pose) {
-    DipFrame frame;
-    assert_true(dip_renderer_draw(stage->renderer, stage->scene, pose, 0, &frame, NULL));
-    return frame;
+    return stage_draw(stage, pose, 0);
 }
 
 // Turns the camera about the vertical axis, then down, by angles in degrees.
@@ -101,11 +77,9 @@ static void add_soup(DipTestScene *scene, int texture, Random *random, double lo
 
 static void decode_frame(const DipFrame *frame, double *rgb_lin) {
     for (int i = 0; i < frame->width * frame->height; i++) {
-        const uint8_t *pixel = frame->rgba8 + (size_t)(i / frame->width) * frame->stride_bytes +
-                               4 * (size_t)(i % frame->width);
+        const uint8_t *pixel = dip_image_pixel(frame, i % frame->width, i / frame->width);
         for (int c = 0; c < 3; c++) {
-            const double code = pixel[c] / 255.0;
-            rgb_lin[3 * i + c] = code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
+            rgb_lin[3 * i + c] = srgb_light(pixel[c]);
         }
     }
 }
@@ -153,8 +127,8 @@ static bool mirrors_at(Random *random, int index, const char *settings) {
     char name[64];
     snprintf(name, sizeof name, "mirrored_%d", index);
     const bool same = dip_image_check(name, expected, &corner, &bounds);
-    close_stage(&stage);
-    close_stage(&direct);
+    stage_close(&stage);
+    stage_close(&direct);
     dip_test_scene_free(&scene);
     return same;
 }
@@ -198,8 +172,7 @@ static void make_room(DipTestScene *scene) {
 static int other_than_grey(const DipFrame *frame) {
     int count = 0;
     for (int i = 0; i < frame->width * frame->height; i++) {
-        const uint8_t *pixel = frame->rgba8 + (size_t)(i / frame->width) * frame->stride_bytes +
-                               4 * (size_t)(i % frame->width);
+        const uint8_t *pixel = dip_image_pixel(frame, i % frame->width, i / frame->width);
         count += abs(pixel[0] - 188) > 1 || abs(pixel[1] - 188) > 1 || abs(pixel[2] - 188) > 1;
     }
     return count;
@@ -230,7 +203,7 @@ static void no_background_shows_at_the_waterline(void **state) {
         assert_true(frame.effects.reflection.run <= (heights[i % 11] > 0.0));
     }
     assert_int_equal(leaks, 0);
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -261,7 +234,7 @@ static void pictures_are_continuous_as_the_eye_crosses_the_water(void **state) {
             assert_true(rms < (fabs(heights[h]) < 1e-6 ? 0.0005 : 0.005));
         }
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -318,8 +291,8 @@ static void force_all(DipTestSceneKind kind, const char *settings) {
     assert_true(spared > 1000);
     assert_in_range(skipped, 10, 140);
     assert_in_range(parts, 10, 140);
-    close_stage(&stages[0]);
-    close_stage(&stages[1]);
+    stage_close(&stages[0]);
+    stage_close(&stages[1]);
     dip_test_scene_free(&scene);
 }
 
@@ -366,7 +339,7 @@ static void effects_report_why_they_run_or_not(void **state) {
     assert_int_equal(err.code, DIP_ERROR_RANGE);
     scene.reflection = (DipReflectionDef){8, 8, NAN, false, false};
     assert_false(dip_renderer_set_reflection(stage.renderer, &scene.reflection, &err));
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
 }
 
@@ -394,17 +367,13 @@ static void a_scene_without_water_costs_nothing(void **state) {
             }
         }
         dip_scene_destroy(&water);
-        close_stage(&stage);
+        stage_close(&stage);
     }
     dip_test_scene_free(&dry);
     dip_test_scene_free(&wet);
 }
 
 // --- Fresnel -----------------------------------------------------------------------------------
-
-static double encode(double light) {
-    return 255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1.0 / 2.4) - 0.055);
-}
 
 // Black water lies under a white sky and is seen at an angle in the middle of the picture. The
 // light there is therefore the share of light that the surface reflects. Fresnel's equations give
@@ -445,10 +414,10 @@ static void water_reflects_the_share_that_fresnel_gives(void **state) {
                                                     pow(tan(in - out) / tan(in + out), 2.0));
             const double share = i == 1 ? r0 + (1.0 - r0) * pow(1.0 - cos_in, 5.0) : exact;
             const double light = share + (1.0 - share) * transmissions[i] * floor_light;
-            assert_true(fabs(code - encode(light)) < 0.56);
+            assert_true(fabs(code - 255.0 * srgb_encode(light)) < 0.56);
             assert_int_equal(frame.effects.blend.run, transmissions[i] > 0.0);
         }
-        close_stage(&stage);
+        stage_close(&stage);
     }
     dip_test_scene_free(&scene);
 }

@@ -1,9 +1,7 @@
 // Tests large texture coordinates: whole numbers added to the coordinates of repeating textures do
 // not change a picture.
 #include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
-#include "tests/renderer/scene/image.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,65 +16,12 @@
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
-// Draws a scene into `pixels`, which is WIDTH * HEIGHT pixels large.
-static void draw(const DipTestScene *scene, const char *settings, uint32_t *pixels) {
-    DipPool *pool = dip_pool_create(1, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipScene *made = dip_scene_create(&scene->def, NULL, NULL);
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    DipFrame frame;
-    assert_non_null(made);
-    assert_non_null(renderer);
-    assert_true(dip_renderer_draw(renderer, made, &scene->pose, 0, &frame, NULL));
-    for (int y = 0; y < HEIGHT; y++) {
-        memcpy(pixels + y * WIDTH, frame.rgba8 + (size_t)y * frame.stride_bytes, 4 * WIDTH);
-    }
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&made);
-    dip_pool_destroy(&pool);
-}
-
 static int count_differences(const uint32_t *a, const uint32_t *b) {
     int count = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         count += a[i] != b[i];
     }
     return count;
-}
-
-// Whether a texture, which may be DIP_NO_TEXTURE, repeats along an axis.
-static bool repeats(const DipTestScene *scene, int texture, int axis) {
-    return texture == DIP_NO_TEXTURE || (axis ? scene->textures[texture].wrap_v
-                                              : scene->textures[texture].wrap_u) == DIP_WRAP_REPEAT;
-}
-
-// Rounds coordinates to multiples of 1/8, which floats hold up to 2^21, and adds whole numbers
-// along the axes that repeat. uv: may be NULL.
-static void shift(float *uv, uint32_t vertex_count, const bool axes[2], const float by[2]) {
-    for (uint32_t i = 0; uv && i < 2 * vertex_count; i++) {
-        uv[i] = roundf(uv[i] * 8.0f) / 8.0f + (axes[i % 2] ? by[i % 2] : 0.0f);
-    }
-}
-
-static void shift_scene(DipTestScene *scene, const float by[2]) {
-    for (int m = 0; m < scene->def.mesh_count; m++) {
-        DipMeshDef *mesh = &scene->meshes[m];
-        const DipMaterialDef *material = &scene->materials[mesh->material];
-        bool axes[2][2];
-        for (int axis = 0; axis < 2; axis++) {
-            axes[0][axis] = material->surface != DIP_SURFACE_SKY &&
-                            repeats(scene, material->colour_texture, axis) &&
-                            repeats(scene, material->normal_map, axis);
-            axes[1][axis] = repeats(scene, material->light_map, axis);
-        }
-        shift((float *)mesh->uv0, mesh->vertex_count, axes[0], by);
-        shift((float *)mesh->uv1, mesh->vertex_count, axes[1], by);
-    }
 }
 
 static void whole_numbers_added_to_repeating_coordinates_change_no_bit(void **state) {
@@ -92,8 +37,8 @@ static void whole_numbers_added_to_repeating_coordinates_change_no_bit(void **st
             for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++) {
                 DipTestScene scene;
                 dip_test_scene_make(&scene, (DipTestSceneKind)kind);
-                shift_scene(&scene, shifts[i]);
-                draw(&scene, settings[s], pictures[i > 0]);
+                dip_test_scene_shift_uv(&scene, shifts[i]);
+                stage_draw_scene(&scene, WIDTH, HEIGHT, settings[s], pictures[i > 0]);
                 dip_test_scene_free(&scene);
                 const int count = i ? count_differences(pictures[0], pictures[1]) : 0;
                 if (count) {
@@ -127,7 +72,7 @@ static void clamped_coordinates_are_not_reduced(void **state) {
         ((float *)scene.meshes[0].uv0)[2 * v] -= 100.0f;
     }
     static uint32_t pixels[WIDTH * HEIGHT];
-    draw(&scene, "aa=none", pixels);
+    stage_draw_scene(&scene, WIDTH, HEIGHT, "aa=none", pixels);
     dip_test_scene_free(&scene);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const int x = i % WIDTH - WIDTH / 2;
@@ -152,7 +97,7 @@ static void the_coordinates_of_a_sky_are_not_reduced(void **state) {
     assert_non_null(reference);
     assert_true(
         dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, expected, NULL));
-    draw(&scene, "", pixels);
+    stage_draw_scene(&scene, WIDTH, HEIGHT, "", pixels);
     const DipFrame frame = {
         .rgba8 = (uint8_t *)pixels, .stride_bytes = 4 * WIDTH, .width = WIDTH, .height = HEIGHT};
     const double rms_lin = dip_image_compare(expected, &frame, 1.0).rms_lin;

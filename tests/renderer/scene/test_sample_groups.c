@@ -4,9 +4,9 @@
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/catalogue/oracle.h"
 #include "tests/renderer/pipeline/screen.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -194,25 +194,16 @@ static void make_triangles(Random *random, const Union *both, DipTestScene *scen
 // This number follows exactly from the pixel's 8-bit value.
 static void add_fast_frame(const DipTestScene *scene, const DipQuality *quality, int frame_index,
                            int found[PIXELS]) {
-    DipError err;
-    DipFrame frame;
-    DipPool *pool = dip_pool_create(1, &err);
-    DipScene *fast = dip_scene_create(&scene->def, NULL, &err);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = def.height = SIDE;
+    DipRendererDef def = stage_def(SIDE, SIDE, "");
     def.quality = *quality;
-    DipRenderer *renderer = dip_renderer_create(&def, &err);
-    assert_non_null(renderer);
-    dip_renderer_set_frame_index(renderer, (uint64_t)frame_index);
-    assert_true(dip_renderer_draw(renderer, fast, &scene->pose, 0, &frame, &err));
+    Stage stage = stage_open(&scene->def, def, 1);
+    dip_renderer_set_frame_index(stage.renderer, (uint64_t)frame_index);
+    const DipFrame frame = stage_draw(&stage, &scene->pose, 0);
     for (int p = 0; p < PIXELS; p++) {
-        const int code = frame.rgba8[(size_t)(p / SIDE) * frame.stride_bytes + 4 * (p % SIDE)];
+        const int code = *dip_image_pixel(&frame, p % SIDE, p / SIDE);
         found[p] += (int)lround(dip_srgb_decode(code / 255.0) * dip_quality_sample_count(quality));
     }
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&fast);
-    dip_pool_destroy(&pool);
+    stage_close(&stage);
 }
 
 static void the_mean_of_two_frames_has_the_samples_of_both_patterns(void **state) {

@@ -2,10 +2,9 @@
 // the pipeline hands to it, and the sizes that are drawn.
 #include "renderer/base/srgb.h"
 #include "renderer/catalogue/random.h"
-#include "renderer/catalogue/scenes.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/box.h"
-#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -464,43 +463,8 @@ static void sizes_are_rounded_to_the_nearest_whole_number(void **state) {
     }
 }
 
-typedef struct Stage {
-    DipTestScene scene;
-    DipPool *pool;
-    DipScene *made;
-    DipRenderer *renderer;
-} Stage;
-
-static void open_stage(Stage *stage, DipTestSceneKind kind, int width, int height) {
-    dip_test_scene_make(&stage->scene, kind);
-    stage->pool = dip_pool_create(1, NULL);
-    stage->made = dip_scene_create(&stage->scene.def, NULL, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage->pool;
-    def.width = width;
-    def.height = height;
-    def.reflection = stage->scene.reflection;
-    stage->renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(stage->made);
-    assert_non_null(stage->renderer);
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->made);
-    dip_pool_destroy(&stage->pool);
-    dip_test_scene_free(&stage->scene);
-}
-
-static DipFrame draw(Stage *stage, const char *settings) {
-    DipQuality quality;
-    DipFrame frame;
-    DipError err = {0};
-    assert_true(dip_quality_parse(settings, &quality, &err));
-    assert_true(dip_renderer_set_quality(stage->renderer, &quality, &err));
-    assert_true(
-        dip_renderer_draw(stage->renderer, stage->made, &stage->scene.pose, 0, &frame, &err));
-    return frame;
+static Stage open_stage(DipTestSceneKind kind, int width, int height) {
+    return stage_open_kind(kind, stage_def(width, height, ""), 1);
 }
 
 // The larger picture, with its reflection, has the work of a frame of its size.
@@ -511,41 +475,38 @@ static void the_work_is_that_of_a_larger_frame(void **state) {
         int width, height;
     } rows[] = {{"scale=2", 320, 240}, {"scale=1.5", 240, 180}, {"scale=1.25,aa=4", 200, 150}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Stage stage;
-        open_stage(&stage, DIP_TEST_SCENE_water, 160, 120);
-        const DipFrame small = draw(&stage, rows[i].settings);
+        Stage stage = open_stage(DIP_TEST_SCENE_water, 160, 120);
+        const DipFrame small = stage_draw_kind(&stage, rows[i].settings);
         assert_int_equal(small.width, 160);
         assert_int_equal(small.height, 120);
-        Stage larger;
-        open_stage(&larger, DIP_TEST_SCENE_water, rows[i].width, rows[i].height);
-        DipReflectionDef reflection = larger.scene.reflection;
+        Stage larger = open_stage(DIP_TEST_SCENE_water, rows[i].width, rows[i].height);
+        DipReflectionDef reflection = larger.made->reflection;
         DipQuality quality;
         assert_true(dip_quality_parse(rows[i].settings, &quality, NULL));
         reflection.width = dip_quality_drawn_size(&quality, reflection.width);
         reflection.height = dip_quality_drawn_size(&quality, reflection.height);
         assert_true(dip_renderer_set_reflection(larger.renderer, &reflection, NULL));
-        const DipFrame large = draw(&larger, quality.step[DIP_SETTING_AA] ? "aa=4" : "");
+        const DipFrame large = stage_draw_kind(&larger, quality.step[DIP_SETTING_AA] ? "aa=4" : "");
         assert_true(small.effects.reflection.run);
         assert_memory_equal(&small.counters, &large.counters, sizeof large.counters);
-        close_stage(&larger);
-        close_stage(&stage);
+        stage_close(&larger);
+        stage_close(&stage);
     }
 }
 
 // Turning a scale on and off leaves the picture and the recording of tiles as they were.
 static void a_scale_that_is_turned_off_leaves_nothing(void **state) {
     (void)state;
-    Stage stage;
     char hashes[3][33];
-    open_stage(&stage, DIP_TEST_SCENE_water, 160, 120);
+    Stage stage = open_stage(DIP_TEST_SCENE_water, 160, 120);
     assert_true(dip_renderer_record_tiles(stage.renderer, true, NULL));
-    DipFrame frame = draw(&stage, "aa=2");
+    DipFrame frame = stage_draw_kind(&stage, "aa=2");
     dip_frame_hash(&frame, hashes[0]);
     assert_int_equal(frame.tiles.across, 3);
-    frame = draw(&stage, "aa=2,scale=1.5");
+    frame = stage_draw_kind(&stage, "aa=2,scale=1.5");
     dip_frame_hash(&frame, hashes[1]);
     assert_null(frame.tiles.records);
-    frame = draw(&stage, "aa=2");
+    frame = stage_draw_kind(&stage, "aa=2");
     dip_frame_hash(&frame, hashes[2]);
     assert_int_equal(frame.tiles.across, 3);
     assert_string_equal(hashes[0], hashes[2]);
@@ -556,27 +517,27 @@ static void a_scale_that_is_turned_off_leaves_nothing(void **state) {
     DipQuality quality;
     assert_true(dip_quality_parse("scale=2", &quality, NULL));
     assert_true(dip_renderer_set_quality(stage.renderer, &quality, NULL));
-    assert_false(dip_renderer_read_samples(stage.renderer, stage.made, &stage.scene.pose, 0,
+    assert_false(dip_renderer_read_samples(stage.renderer, stage.scene, &stage.made->pose, 0,
                                            &readback, &err));
     assert_int_equal(err.code, DIP_ERROR_UNSUPPORTED);
     assert_string_equal(err.key, "scale");
-    close_stage(&stage);
+    stage_close(&stage);
 }
 
 static void pictures_that_would_be_too_large_are_refused(void **state) {
     (void)state;
-    Stage stage;
     DipQuality quality;
     DipFrame frame;
     DipError err = {0};
-    open_stage(&stage, DIP_TEST_SCENE_vertex_colours, DIP_MAX_FRAME_SIZE / 2 + 1, 1);
+    Stage stage = open_stage(DIP_TEST_SCENE_vertex_colours, DIP_MAX_FRAME_SIZE / 2 + 1, 1);
     assert_true(dip_quality_parse("scale=2", &quality, NULL));
     assert_true(dip_renderer_set_quality(stage.renderer, &quality, NULL));
-    assert_false(dip_renderer_draw(stage.renderer, stage.made, &stage.scene.pose, 0, &frame, &err));
+    assert_false(
+        dip_renderer_draw(stage.renderer, stage.scene, &stage.made->pose, 0, &frame, &err));
     assert_int_equal(err.code, DIP_ERROR_RANGE);
     assert_string_equal(err.key, "scale");
-    draw(&stage, "scale=1.25");
-    close_stage(&stage);
+    stage_draw_kind(&stage, "scale=1.25");
+    stage_close(&stage);
 }
 
 int main(void) {

@@ -2,11 +2,11 @@
 // whole scenes against the reference renderer, and that nothing depends on the plan, the threads
 // and the instruction set.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
 
 #include "renderer/reference/convergence.h"
 #include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -26,59 +26,27 @@ static AuthorScene scene;
 // How a picture is drawn. All 0: with the best instruction set on two threads.
 typedef struct Way {
     const char *settings; // NULL: aa=none
-    const DipReflectionDef *reflection;
-    int size; // times WIDTH x HEIGHT; 0 means 1
+    int size;             // times WIDTH x HEIGHT; 0 means 1
     int threads;
     bool forced;
     bool other_isa;
     DipIsa isa;
 } Way;
 
-// A renderer for `scene`, and what it has drawn.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-    DipFrame frame;
-} Stage;
-
-static Stage draw(const Way *way) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(way->threads ? way->threads : 2, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
-    def.width = WIDTH * (way->size ? way->size : 1);
-    def.height = HEIGHT * (way->size ? way->size : 1);
+static Stage open_stage(const Way *way) {
+    const int size = way->size ? way->size : 1;
+    DipRendererDef def =
+        stage_def(WIDTH * size, HEIGHT * size, way->settings ? way->settings : "aa=none");
     def.force_all_effects = way->forced;
+    def.reflection = scene.reflection;
     if (way->other_isa) {
         def.isa = way->isa;
     }
-    if (way->reflection) {
-        def.reflection = *way->reflection;
-    }
-    assert_true(dip_quality_parse(way->settings ? way->settings : "aa=none", &def.quality, NULL));
-    stage.renderer = dip_renderer_create(&def, &err);
-    assert_true(stage.scene && stage.renderer);
-    if (!dip_renderer_draw(stage.renderer, stage.scene, &scene.pose, 0, &stage.frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return stage;
+    return stage_open(&scene.def, def, way->threads ? way->threads : 2);
 }
 
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
-}
-
-static int encode(double x) {
-    return (int)lround(255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055));
-}
-
-static double decode(int code) {
-    const double x = code / 255.0;
-    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
+static DipFrame draw(const Stage *stage) {
+    return stage_draw(stage, &scene.pose, 0);
 }
 
 // Adds an unlit wall at z = -1 from x = left to x = right.
@@ -121,21 +89,20 @@ static void a_wall_of_one_colour_stays_as_it_is(void **state) {
         DipMaterialDef *pane = &scene.materials[add_pane(-9.0f, 9.0f, roughnesses[i / 2])];
         memcpy(pane->base_colour_lin, pane_lin, sizeof pane_lin);
         pane->opacity = opacity;
-        Stage stage = draw(&(Way){.settings = "aa=4"});
-        const DipFrame *frame = &stage.frame;
+        Stage stage = open_stage(&(Way){.settings = "aa=4"});
+        const DipFrame frame = draw(&stage);
         for (int c = 0; c < 3; c++) {
             const double behind = (double)wall_lin[c];
             const double seen = (double)opacity * (double)pane_lin[c] + 1.0 - (double)opacity;
-            const uint8_t *middle = frame->rgba8 + HEIGHT / 2 * frame->stride_bytes + WIDTH / 2 * 4;
-            assert_true(abs(middle[c] - encode(seen * behind)) <= 1);
+            assert_true(abs(dip_image_centre(&frame)[c] - srgb_code(seen * behind)) <= 1);
         }
-        assert_true(frame->effects.scattering.run && frame->effects.transmission.run);
-        assert_int_equal(frame->counters.fragments_scattering, frame->counters.fragments_blended);
-        assert_true(frame->counters.fragments_scattering >= WIDTH * HEIGHT);
-        assert_int_equal(frame->counters.fragments_behind, WIDTH * HEIGHT);
-        assert_true(frame->counters.backdrop_texels > WIDTH * HEIGHT);
-        assert_true(frame->counters.backdrop_bytes > WIDTH * HEIGHT * 12);
-        close_stage(&stage);
+        assert_true(frame.effects.scattering.run && frame.effects.transmission.run);
+        assert_int_equal(frame.counters.fragments_scattering, frame.counters.fragments_blended);
+        assert_true(frame.counters.fragments_scattering >= WIDTH * HEIGHT);
+        assert_int_equal(frame.counters.fragments_behind, WIDTH * HEIGHT);
+        assert_true(frame.counters.backdrop_texels > WIDTH * HEIGHT);
+        assert_true(frame.counters.backdrop_bytes > WIDTH * HEIGHT * 12);
+        stage_close(&stage);
         author_free(&scene);
     }
 }
@@ -143,10 +110,10 @@ static void a_wall_of_one_colour_stays_as_it_is(void **state) {
 // Returns how many pixels of the middle row lie between the two walls' colours: the number of rows
 // by which a straight line from one to the other would be as long as the sum of all differences.
 static double width_of_step(const DipFrame *frame) {
-    const uint8_t *row = frame->rgba8 + (size_t)frame->height / 2 * frame->stride_bytes;
+    const uint8_t *row = dip_image_pixel(frame, 0, frame->height / 2);
     double moment = 0.0;
     for (int x = 0; x < frame->width; x++) {
-        const double light = decode(row[4 * x]);
+        const double light = srgb_light(row[4 * x]);
         const double step = x + 0.5 < 0.5 * frame->width ? 0.0 : 1.0;
         moment += fabs(light - step);
     }
@@ -164,11 +131,12 @@ static void the_blur_does_not_depend_on_the_size(void **state) {
         add_wall(-9.0f, 0.0f, black);
         add_wall(0.0f, 9.0f, white);
         scene.pbrs[add_pane(-9.0f, 9.0f, 0.75f)].scattering = i == 3 ? 0.0f : 1.0f;
-        Stage stage = draw(&(Way){.settings = settings[i], .size = i == 1 ? 2 : 1});
-        widths[i] = width_of_step(&stage.frame);
-        assert_true(stage.frame.effects.scattering.run == (i != 3));
-        assert_true((stage.frame.counters.backdrop_bytes > 0) == (i != 3));
-        close_stage(&stage);
+        Stage stage = open_stage(&(Way){.settings = settings[i], .size = i == 1 ? 2 : 1});
+        const DipFrame frame = draw(&stage);
+        widths[i] = width_of_step(&frame);
+        assert_true(frame.effects.scattering.run == (i != 3));
+        assert_true((frame.counters.backdrop_bytes > 0) == (i != 3));
+        stage_close(&stage);
         author_free(&scene);
     }
     printf("step: %.3f pixels, %.3f at twice the size, %.3f with scale=2, %.3f clear\n", widths[0],
@@ -185,10 +153,10 @@ static void the_blur_does_not_depend_on_the_size(void **state) {
 // --- the plan ------------------------------------------------------------------------------------
 
 static void hash_of(const Way *way, char hash[33], DipFrame *frame) {
-    Stage stage = draw(way);
-    dip_frame_hash(&stage.frame, hash);
-    *frame = stage.frame; // Only its counters and effects stay valid.
-    close_stage(&stage);
+    Stage stage = open_stage(way);
+    *frame = draw(&stage); // After this function, only its counters and effects stay valid.
+    dip_frame_hash(frame, hash);
+    stage_close(&stage);
 }
 
 // Panes of several roughnesses before walls, in a part of the picture.
@@ -265,41 +233,21 @@ static void pictures_do_not_depend_on_threads_and_instruction_sets(void **state)
 
 // --- against the reference -----------------------------------------------------------------------
 
-static void compare(const char *name, const Way *way) {
-    DipError err = {0};
-    Stage stage = draw(way);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
-    DipReference *reference = dip_reference_create(&scene.def, &err);
-    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
-    assert_true(reference && rgb_lin);
-    if (way->reflection) {
-        dip_reference_set_reflection(reference, way->reflection);
-    }
-    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
-    const DipImageError error = dip_image_compare(rgb_lin, &stage.frame, 0.02);
-    printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, way->settings,
-           error.rms_lin, error.max_lin, error.over_count, error.psnr_db);
+static void compare(const char *name, const char *settings) {
     static const DipImageBounds bounds = {
         .rms_lin = 0.004, .pixel_lin = 0.02, .over_share = 0.003, .over_max_lin = 0.6};
-    assert_true(dip_image_check(name, rgb_lin, &stage.frame, &bounds));
-    assert_true(stage.frame.effects.scattering.run);
-    free(rgb_lin);
-    dip_reference_destroy(&reference);
-    close_stage(&stage);
+    Stage stage = open_stage(&(Way){.settings = settings});
+    const DipFrame frame = stage_compare(&stage, &scene.pose, name, settings, &bounds);
+    assert_true(frame.effects.scattering.run);
+    stage_close(&stage);
 }
 
-// The panes and the ball of author_make_panes as rough glass: tinted, partly transmissive, coated,
-// double-sided, with a texture of alpha, with a map of the roughness, and with a sheen.
+// Makes rough glass, some of it with a map of the roughness.
 static void make_glass(void) {
-    author_make_panes(&scene);
-    const float transmissions[4] = {1.0f, 0.6f, 0.9f, 0.7f};
+    author_make_glass(&scene);
     for (int m = 0; m < 4; m++) {
-        DipPbrDef *pbr = &scene.pbrs[m];
-        scene.materials[m].pbr = pbr;
-        scene.materials[m].opacity = m == 3 ? 0.9f : 1.0f;
-        pbr->transmission = transmissions[m];
-        pbr->roughness = 0.4f + 0.15f * (float)m;
-        pbr->scattering = m == 2 ? 0.7f : 1.0f;
+        scene.pbrs[m].roughness = 0.4f + 0.15f * (float)m;
+        scene.pbrs[m].scattering = m == 2 ? 0.7f : 1.0f;
     }
     const int map = author_add_texture(&scene, 64, DIP_ENCODING_LINEAR);
     uint8_t *texels = author_texels(&scene, map);
@@ -309,27 +257,17 @@ static void make_glass(void) {
     }
     scene.pbrs[0].roughness = 1.0f;
     scene.pbrs[0].metal_rough_map = map;
-    scene.pbrs[1].sheen_lin[0] = 0.5f;
-    scene.pbrs[1].sheen_roughness = 0.4f;
-    scene.pbrs[2].coat = 0.8f;
-    scene.pbrs[3].metallic = 0.3f;
 }
 
 static void rough_glass_equals_the_reference(void **state) {
     (void)state;
     make_glass();
-    compare("rough_glass", &(Way){.settings = "aa=none"});
-    compare("rough_glass", &(Way){.settings = "aa=4,af=8"});
-    compare("rough_glass", &(Way){.settings = "aa=8,aaa=all,asd=1"});
-    compare("rough_glass", &(Way){.settings = "aa=2,scale=1.5"});
-    const int water = author_add_pbr(&scene, 0.0f, 1.0f);
-    scene.materials[water].surface = DIP_SURFACE_WATER;
-    scene.materials[water].pbr = NULL;
-    scene.materials[water].base_colour_lin[0] = 0.05f;
-    author_add_quad(&scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
-                    (const float[]){0, 0, -8});
-    const DipReflectionDef reflection = {.width = WIDTH, .height = HEIGHT, .level_m = -1.0};
-    compare("rough_glass_in_water", &(Way){.settings = "aa=2", .reflection = &reflection});
+    compare("rough_glass", "aa=none");
+    compare("rough_glass", "aa=4,af=8");
+    compare("rough_glass", "aa=8,aaa=all,asd=1");
+    compare("rough_glass", "aa=2,scale=1.5");
+    author_add_water(&scene, WIDTH, HEIGHT);
+    compare("rough_glass_in_water", "aa=2");
     author_free(&scene);
 }
 
@@ -353,11 +291,12 @@ static void the_converged_picture_blurs_alike(void **state) {
         assert_true(dip_convergence_add_tile(convergence, t, SAMPLES, 1, 1.0, tiles, NULL, &err));
     }
     assert_memory_equal(whole, tiles, values * sizeof *whole);
-    Stage stage = draw(&(Way){.settings = "aa=8,scale=2"});
-    const DipImageError error = dip_image_compare(whole, &stage.frame, 0.02);
+    Stage stage = open_stage(&(Way){.settings = "aa=8,scale=2"});
+    const DipFrame frame = draw(&stage);
+    const DipImageError error = dip_image_compare(whole, &frame, 0.02);
     printf("converged: rms %.5f, %.1f dB\n", error.rms_lin, error.psnr_db);
     assert_true(error.rms_lin < 0.02);
-    close_stage(&stage);
+    stage_close(&stage);
     dip_convergence_destroy(&convergence);
     free(whole);
     free(tiles);

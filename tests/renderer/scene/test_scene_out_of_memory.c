@@ -1,6 +1,5 @@
 // Tests what scenes and renderers do when memory runs out: an operation that fails says so, leaks
 // nothing and changes nothing. Afterwards, the renderer draws the right picture.
-#include "renderer/base/hash.h"
 #include "renderer/scene/renderer.h"
 #include "renderer/scene/resources/instancing.h"
 #include "renderer/catalogue/scenes.h"
@@ -17,6 +16,10 @@
 
 enum { WIDTH = 64, HEIGHT = 48, PANES = 2 };
 
+typedef struct Hash {
+    char hex[33];
+} Hash;
+
 // A scene in memory, and what the operation under test makes of it.
 typedef struct Fixture {
     DipTestScene made;
@@ -25,26 +28,23 @@ typedef struct Fixture {
     DipRenderer *panes[PANES];
     DipFrame frames[PANES];
     DipQuality quality; // Settings that the operation selects.
-    DipHash before[PANES];
-    DipHash after[PANES]; // Pictures with these settings, from renderers that never failed.
-    int width;            // Size that the operation selects.
+    Hash before[PANES];
+    Hash after[PANES]; // Pictures with these settings, from renderers that never failed.
+    int width;         // Size that the operation selects.
     int height;
 } Fixture;
 
-static DipHash hash_of(const DipFrame *frame) {
-    DipHash hash = dip_hash_begin(0);
-    for (int y = 0; y < frame->height; y++) {
-        dip_hash_bytes(&hash, frame->rgba8 + (size_t)y * frame->stride_bytes,
-                       4 * (size_t)frame->width);
-    }
+static Hash hash_of(const DipFrame *frame) {
+    Hash hash;
+    dip_frame_hash(frame, hash.hex);
     return hash;
 }
 
-static void assert_same(DipHash a, DipHash b) {
-    assert_memory_equal(&a, &b, sizeof a);
+static void assert_same(Hash a, Hash b) {
+    assert_string_equal(a.hex, b.hex);
 }
 
-static DipHash draw(Fixture *fixture, int pane) {
+static Hash draw(Fixture *fixture, int pane) {
     DipError err;
     if (!dip_renderer_draw(fixture->panes[pane], fixture->scene, &fixture->made.pose, 0,
                            &fixture->frames[pane], &err)) {
@@ -103,7 +103,7 @@ static void free_pool(void *context) {
 }
 
 // Stores the first picture of each pane, drawn by new renderers.
-static void draw_truth(Fixture *fixture, const DipQuality *quality, DipHash hashes[PANES]) {
+static void draw_truth(Fixture *fixture, const DipQuality *quality, Hash hashes[PANES]) {
     must_make_panes(fixture);
     for (int p = 0; p < PANES; p++) {
         if (quality) {
@@ -130,6 +130,25 @@ static void end(Fixture *fixture) {
     dip_test_scene_free(&fixture->made);
 }
 
+// Checks an operation on a fixture, whose name is printed like that of printf. The operation may
+// leave out `finish`, which is free_panes then. short_count: see DipOutOfMemory.
+__attribute__((format(printf, 4, 5))) static void
+check(Fixture *fixture, const DipOutOfMemory *operation, int short_count, const char *format, ...) {
+    char name[64];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    DipOutOfMemory named = *operation;
+    named.name = name;
+    named.context = fixture;
+    named.short_count = short_count;
+    if (!named.finish) {
+        named.finish = free_panes;
+    }
+    dip_out_of_memory_check(&named);
+}
+
 // --- loading -------------------------------------------------------------------------------------
 
 static void check_pool(void *context, bool succeeded) {
@@ -137,15 +156,13 @@ static void check_pool(void *context, bool succeeded) {
     assert_int_equal(fixture->pool != NULL, succeeded);
 }
 
+static const DipOutOfMemory starting = {
+    .run = make_pool, .check = check_pool, .finish = free_pool, .needs_every_allocation = true};
+
 static void pool_starts_all_threads_or_none(void **state) {
     (void)state;
     Fixture fixture = {.pool = NULL};
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a pool of two threads",
-                                              .context = &fixture,
-                                              .run = make_pool,
-                                              .check = check_pool,
-                                              .finish = free_pool,
-                                              .needs_every_allocation = true});
+    check(&fixture, &starting, 0, "a pool of two threads");
 }
 
 static void check_scene(void *context, bool succeeded) {
@@ -157,20 +174,15 @@ static void check_scene(void *context, bool succeeded) {
     }
 }
 
+static const DipOutOfMemory making = {
+    .run = make_scene, .check = check_scene, .needs_every_allocation = true};
+
 static void scene_is_made_whole_or_not_at_all(void **state) {
     (void)state;
     static Fixture fixture;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
-        char name[64];
-        snprintf(name, sizeof name, "scene %s", dip_test_scene_name((DipTestSceneKind)kind));
         begin(&fixture, (DipTestSceneKind)kind);
-        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
-                                                  .context = &fixture,
-                                                  .run = make_scene,
-                                                  .check = check_scene,
-                                                  .finish = free_panes,
-                                                  .needs_every_allocation = true,
-                                                  .short_count = 12});
+        check(&fixture, &making, 12, "scene %s", dip_test_scene_name((DipTestSceneKind)kind));
         end(&fixture);
     }
 }
@@ -194,12 +206,7 @@ static void blended_meshes_are_cut_or_no_scene_is_made(void **state) {
     made->materials[mesh.material].surface = DIP_SURFACE_BLENDED;
     made->meshes[made->def.mesh_count - 1] = mesh;
     draw_truth(&fixture, NULL, fixture.before);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a blended mesh that is cut",
-                                              .context = &fixture,
-                                              .run = make_scene,
-                                              .check = check_scene,
-                                              .finish = free_panes,
-                                              .needs_every_allocation = true});
+    check(&fixture, &making, 0, "a blended mesh that is cut");
     end(&fixture);
 }
 
@@ -211,13 +218,7 @@ static void environments_are_blurred_or_no_scene_is_made(void **state) {
     begin(&fixture, DIP_TEST_SCENE_metal_gloss);
     fixture.made.def.environment = &environment;
     draw_truth(&fixture, NULL, fixture.before);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a scene with an environment",
-                                              .context = &fixture,
-                                              .run = make_scene,
-                                              .check = check_scene,
-                                              .finish = free_panes,
-                                              .needs_every_allocation = true,
-                                              .short_count = 12});
+    check(&fixture, &making, 12, "a scene with an environment");
     end(&fixture);
 }
 
@@ -230,17 +231,16 @@ static void check_renderer(void *context, bool succeeded) {
     assert_same(draw(fixture, 0), fixture->before[0]);
 }
 
+static const DipOutOfMemory making_a_renderer = {.prepare = must_make_scene,
+                                                 .run = make_renderer,
+                                                 .check = check_renderer,
+                                                 .needs_every_allocation = true};
+
 static void renderer_is_made_whole_or_not_at_all(void **state) {
     (void)state;
     static Fixture fixture;
     begin(&fixture, DIP_TEST_SCENE_water_effects);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a renderer",
-                                              .context = &fixture,
-                                              .prepare = must_make_scene,
-                                              .run = make_renderer,
-                                              .check = check_renderer,
-                                              .finish = free_panes,
-                                              .needs_every_allocation = true});
+    check(&fixture, &making_a_renderer, 0, "a renderer");
     end(&fixture);
 }
 
@@ -278,6 +278,12 @@ static void check_pair(void *context, bool succeeded) {
     }
 }
 
+static const DipOutOfMemory drawing = {
+    .prepare = must_make_panes, .run = draw_one, .check = check_frame};
+
+static const DipOutOfMemory drawing_a_pair = {
+    .prepare = must_make_panes, .run = draw_pair, .check = check_pair};
+
 // Turns a scene of metallic-roughness surfaces into one with rough glass.
 static void begin_glass(Fixture *fixture) {
     begin(fixture, DIP_TEST_SCENE_metal_gloss);
@@ -296,13 +302,7 @@ static void failed_frame_with_rough_glass_leaves_the_renderer_usable(void **stat
     (void)state;
     static Fixture fixture;
     begin_glass(&fixture);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "first frame with rough glass",
-                                              .context = &fixture,
-                                              .prepare = must_make_panes,
-                                              .run = draw_one,
-                                              .check = check_frame,
-                                              .finish = free_panes,
-                                              .short_count = 27});
+    check(&fixture, &drawing, 27, "first frame with rough glass");
     end(&fixture);
 }
 
@@ -313,24 +313,9 @@ static void failed_frame_leaves_the_renderer_usable(void **state) {
     static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_fence, DIP_TEST_SCENE_huge,
                                              DIP_TEST_SCENE_water_effects};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        char name[64];
         begin(&fixture, kinds[i]);
-        snprintf(name, sizeof name, "first frame of %s", dip_test_scene_name(kinds[i]));
-        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
-                                                  .context = &fixture,
-                                                  .prepare = must_make_panes,
-                                                  .run = draw_one,
-                                                  .check = check_frame,
-                                                  .finish = free_panes,
-                                                  .short_count = 27});
-        snprintf(name, sizeof name, "first pair of %s", dip_test_scene_name(kinds[i]));
-        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
-                                                  .context = &fixture,
-                                                  .prepare = must_make_panes,
-                                                  .run = draw_pair,
-                                                  .check = check_pair,
-                                                  .finish = free_panes,
-                                                  .short_count = 27});
+        check(&fixture, &drawing, 27, "first frame of %s", dip_test_scene_name(kinds[i]));
+        check(&fixture, &drawing_a_pair, 27, "first pair of %s", dip_test_scene_name(kinds[i]));
         end(&fixture);
     }
 }
@@ -368,13 +353,15 @@ static void check_change(void *context, bool succeeded) {
     assert_same(draw(fixture, 1), fixture->before[1]);
 }
 
+static const DipOutOfMemory changing = {
+    .prepare = make_drawn_panes, .run = change_and_draw, .check = check_change};
+
 static void failed_change_of_a_setting_can_be_taken_back(void **state) {
     (void)state;
     static Fixture fixture;
     begin(&fixture, DIP_TEST_SCENE_water_effects);
     for (int setting = 0; setting < DIP_SETTING_COUNT; setting++) {
         for (int step = 0; step < dip_setting_info((DipSetting)setting)->step_count; step++) {
-            char name[64];
             fixture.quality = dip_quality_default();
             if (fixture.quality.step[setting] == step) {
                 continue;
@@ -385,15 +372,8 @@ static void failed_change_of_a_setting_can_be_taken_back(void **state) {
                 fixture.quality.step[DIP_SETTING_AA]++;
             }
             draw_truth(&fixture, &fixture.quality, fixture.after);
-            snprintf(name, sizeof name, "change of %s to step %d",
-                     dip_setting_info((DipSetting)setting)->key, step);
-            dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
-                                                      .context = &fixture,
-                                                      .prepare = make_drawn_panes,
-                                                      .run = change_and_draw,
-                                                      .check = check_change,
-                                                      .finish = free_panes,
-                                                      .short_count = 27});
+            check(&fixture, &changing, 27, "change of %s to step %d",
+                  dip_setting_info((DipSetting)setting)->key, step);
         }
     }
     end(&fixture);
@@ -406,17 +386,10 @@ static void failed_shadow_map_can_be_made_again(void **state) {
     static Fixture fixture;
     static const DipTestSceneKind kinds[] = {DIP_TEST_SCENE_lights, DIP_TEST_SCENE_gouraud_lights};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        char name[64];
         begin(&fixture, kinds[i]);
         assert_true(dip_quality_parse("shadows=512", &fixture.quality, NULL));
         draw_truth(&fixture, &fixture.quality, fixture.after);
-        snprintf(name, sizeof name, "shadow map of %s", dip_test_scene_name(kinds[i]));
-        dip_out_of_memory_check(&(DipOutOfMemory){.name = name,
-                                                  .context = &fixture,
-                                                  .prepare = make_drawn_panes,
-                                                  .run = change_and_draw,
-                                                  .check = check_change,
-                                                  .finish = free_panes});
+        check(&fixture, &changing, 0, "shadow map of %s", dip_test_scene_name(kinds[i]));
         end(&fixture);
     }
 }
@@ -434,6 +407,11 @@ static void free_copies(void *context) {
     free_panes(context);
 }
 
+static const DipOutOfMemory copying = {.prepare = must_make_scene,
+                                       .run = copy_shared_meshes,
+                                       .finish = free_copies,
+                                       .needs_every_allocation = true};
+
 // With gi=off, each object has a mesh of its own. An object whose copy failed must not be drawn
 // with the mesh that it shares.
 static void meshes_are_copied_for_all_objects_or_for_none(void **state) {
@@ -446,12 +424,7 @@ static void meshes_are_copied_for_all_objects_or_for_none(void **state) {
         made->objects[made->def.object_count] = made->objects[0];
         made->objects[made->def.object_count++].transform[3] += 1.5f + (float)copy;
     }
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a mesh of its own for each object",
-                                              .context = &fixture,
-                                              .prepare = must_make_scene,
-                                              .run = copy_shared_meshes,
-                                              .finish = free_copies,
-                                              .needs_every_allocation = true});
+    check(&fixture, &copying, 0, "a mesh of its own for each object");
     end(&fixture);
 }
 
@@ -469,6 +442,11 @@ static void check_resize(void *context, bool succeeded) {
     assert_same(draw(fixture, 0), fixture->after[0]);
 }
 
+static const DipOutOfMemory resizing = {.prepare = make_drawn_panes,
+                                        .run = resize,
+                                        .check = check_resize,
+                                        .needs_every_allocation = true};
+
 static void failed_resize_keeps_the_old_size(void **state) {
     (void)state;
     static Fixture fixture;
@@ -476,13 +454,7 @@ static void failed_resize_keeps_the_old_size(void **state) {
     fixture.width = 161;
     fixture.height = 67;
     draw_truth(&fixture, NULL, fixture.after);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a new size of a pane",
-                                              .context = &fixture,
-                                              .prepare = make_drawn_panes,
-                                              .run = resize,
-                                              .check = check_resize,
-                                              .finish = free_panes,
-                                              .needs_every_allocation = true});
+    check(&fixture, &resizing, 0, "a new size of a pane");
     end(&fixture);
 }
 
@@ -500,19 +472,18 @@ static void check_compress(void *context, bool succeeded) {
     (void)succeeded;
 }
 
+static const DipOutOfMemory compressing = {.prepare = make_drawn_panes,
+                                           .run = compress,
+                                           .check = check_compress,
+                                           .needs_every_allocation = true};
+
 static void failed_compression_can_be_repeated(void **state) {
     (void)state;
     static Fixture fixture;
     begin(&fixture, DIP_TEST_SCENE_water_effects);
     fixture.quality.step[DIP_SETTING_OPT] = 1;
     draw_truth(&fixture, &fixture.quality, fixture.after);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "compressed textures",
-                                              .context = &fixture,
-                                              .prepare = make_drawn_panes,
-                                              .run = compress,
-                                              .check = check_compress,
-                                              .finish = free_panes,
-                                              .needs_every_allocation = true});
+    check(&fixture, &compressing, 0, "compressed textures");
     end(&fixture);
 }
 
@@ -529,9 +500,14 @@ static void check_mip_pictures(void *context, bool succeeded) {
     Fixture *fixture = context;
     fixture->quality.step[DIP_SETTING_MIPDEBUG] = 1;
     assert_true(change_and_draw(fixture, NULL));
-    const DipHash hash = hash_of(&fixture->frames[0]);
-    assert_int_equal(memcmp(&hash, &fixture->after[0], sizeof hash) == 0, !succeeded);
+    const Hash hash = hash_of(&fixture->frames[0]);
+    assert_int_equal(strcmp(hash.hex, fixture->after[0].hex) == 0, !succeeded);
 }
+
+static const DipOutOfMemory setting_pictures = {.prepare = make_drawn_panes,
+                                                .run = set_mip_pictures,
+                                                .check = check_mip_pictures,
+                                                .needs_every_allocation = true};
 
 static void failed_mip_pictures_keep_the_old_ones(void **state) {
     (void)state;
@@ -539,13 +515,7 @@ static void failed_mip_pictures_keep_the_old_ones(void **state) {
     begin(&fixture, DIP_TEST_SCENE_grazing_checker);
     fixture.quality.step[DIP_SETTING_MIPDEBUG] = 1;
     draw_truth(&fixture, &fixture.quality, fixture.after);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "pictures for mip debugging",
-                                              .context = &fixture,
-                                              .prepare = make_drawn_panes,
-                                              .run = set_mip_pictures,
-                                              .check = check_mip_pictures,
-                                              .finish = free_panes,
-                                              .needs_every_allocation = true});
+    check(&fixture, &setting_pictures, 0, "pictures for mip debugging");
     end(&fixture);
 }
 
@@ -566,6 +536,9 @@ static void check_other(void *context, bool succeeded) {
     assert_same(hash_of(&fixture->frames[0]), fixture->after[0]);
 }
 
+static const DipOutOfMemory drawing_another = {
+    .prepare = make_drawn_panes, .run = draw_other, .check = check_other};
+
 static void failed_change_of_scene_keeps_the_old_scene_drawable(void **state) {
     (void)state;
     static Fixture fixture;
@@ -577,12 +550,7 @@ static void failed_change_of_scene_keeps_the_old_scene_drawable(void **state) {
     assert_true(draw_other(&fixture, NULL));
     fixture.after[0] = hash_of(&fixture.frames[0]);
     free_panes(&fixture);
-    dip_out_of_memory_check(&(DipOutOfMemory){.name = "first frame of another scene",
-                                              .context = &fixture,
-                                              .prepare = make_drawn_panes,
-                                              .run = draw_other,
-                                              .check = check_other,
-                                              .finish = free_panes});
+    check(&fixture, &drawing_another, 0, "first frame of another scene");
     dip_scene_destroy(&other);
     dip_test_scene_free(&sky);
     end(&fixture);

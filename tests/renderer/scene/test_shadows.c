@@ -3,13 +3,12 @@
 // than the filter and the bias reach, each pixel must be exactly one or the other.
 #include "renderer/scene/lights.h"
 
-#include "renderer/base/hash.h"
 #include "renderer/base/trig.h"
-#include "renderer/catalogue/scenes.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/reference/reference.h"
 #include "renderer/scene/draw/shadow_fit.h"
-#include "renderer/scene/renderer.h"
+#include "tests/renderer/scene/stage.h"
+#include "tests/renderer/scene/vec.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,27 +23,7 @@
 
 enum { SIZE = 72, RINGS = 9, MOST_TRIANGLES = 1024, SUN = 0, LAMP = 1 };
 
-typedef double Vec[3];
-
 static DipTestScene scene;
-
-static double dot(const Vec a, const Vec b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const Vec a, const Vec b, Vec product) {
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        product[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-static void unit(Vec v) {
-    const double length = sqrt(dot(v, v));
-    for (int i = 0; i < 3; i++) {
-        v[i] /= length;
-    }
-}
 
 // --- a yard: a ground, boxes, a ball and a fence -------------------------------------------------
 
@@ -138,73 +117,19 @@ static void make_yard(Surfaces surfaces) {
 
 // --- drawing -------------------------------------------------------------------------------------
 
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
 static DipRendererDef renderer_def(const char *settings) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.width = SIZE;
-    def.height = SIZE;
+    DipRendererDef def = stage_def(SIZE, SIZE, settings);
     def.reflection = scene.reflection;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
     return def;
-}
-
-static Stage open_stage(DipRendererDef def, int threads) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(threads, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    def.pool = stage.pool;
-    stage.renderer = dip_renderer_create(&def, &err);
-    if (!stage.scene || !stage.renderer) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
-}
-
-static DipFrame draw(const Stage *stage) {
-    DipFrame frame;
-    DipError err = {0};
-    if (!dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return frame;
-}
-
-static DipHash hash_of(const DipFrame *frame) {
-    DipHash hash = dip_hash_begin(0);
-    for (int y = 0; y < frame->height; y++) {
-        dip_hash_bytes(&hash, frame->rgba8 + (size_t)y * frame->stride_bytes,
-                       4 * (size_t)frame->width);
-    }
-    return hash;
-}
-
-static bool same_hash(const DipHash *a, const DipHash *b) {
-    char first[DIP_HASH_HEX_SIZE], second[DIP_HASH_HEX_SIZE];
-    dip_hash_hex(a, first);
-    dip_hash_hex(b, second);
-    return strcmp(first, second) == 0;
 }
 
 typedef uint8_t Picture[SIZE][SIZE][4];
 
 static void draw_picture(const char *settings, Picture picture) {
-    Stage stage = open_stage(renderer_def(settings), 1);
-    const DipFrame frame = draw(&stage);
-    for (int y = 0; y < SIZE; y++) {
-        memcpy(picture[y], frame.rgba8 + (size_t)y * frame.stride_bytes, sizeof picture[y]);
-    }
-    close_stage(&stage);
+    Stage stage = stage_open(&scene.def, renderer_def(settings), 1);
+    const DipFrame frame = stage_draw(&stage, &scene.pose, 0);
+    dip_image_copy(&frame, picture);
+    stage_close(&stage);
 }
 
 // Draws the yard without shadows: once with the sun, and once without its light.
@@ -504,16 +429,16 @@ static void reference_asks_rays_to_the_light(void **state) {
 
 // --- plan ----------------------------------------------------------------------------------------
 
-static DipHash draw_hash(const char *settings, bool force_all, DipIsa isa, int threads,
-                         DipFrame *frame) {
+static DipFrame draw_hash(const char *settings, bool force_all, DipIsa isa, int threads,
+                          char hash[33]) {
     DipRendererDef def = renderer_def(settings);
     def.force_all_effects = force_all;
     def.isa = isa;
-    Stage stage = open_stage(def, threads);
-    *frame = draw(&stage);
-    const DipHash hash = hash_of(frame);
-    close_stage(&stage);
-    return hash;
+    Stage stage = stage_open(&scene.def, def, threads);
+    const DipFrame frame = stage_draw(&stage, &scene.pose, 0);
+    dip_frame_hash(&frame, hash);
+    stage_close(&stage);
+    return frame; // Only its counters and effects stay valid.
 }
 
 // Lets a sun shine on all scenes, also on the mirrored ones, unless they have lights.
@@ -533,18 +458,17 @@ static void plan_threads_and_instructions_change_no_bit(void **state) {
     int shadowed = 0;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
         for (int size = 512; size <= 2048; size *= 4) {
-            char settings[48];
-            DipFrame planned, other;
+            char settings[48], first[33], other[33];
             dip_test_scene_make(&scene, (DipTestSceneKind)kind);
             add_sun();
             snprintf(settings, sizeof settings, "aa=4,aaa=on,shadows=%d", size);
-            const DipHash first = draw_hash(settings, false, DIP_ISA_SCALAR, 1, &planned);
-            const DipHash forced = draw_hash(settings, true, DIP_ISA_SCALAR, 3, &other);
-            assert_true(same_hash(&first, &forced));
+            const DipFrame planned = draw_hash(settings, false, DIP_ISA_SCALAR, 1, first);
+            draw_hash(settings, true, DIP_ISA_SCALAR, 3, other);
+            assert_string_equal(first, other);
             for (int isa = 0; isa < DIP_ISA_COUNT; isa++) {
                 if (dip_isa_available((DipIsa)isa)) {
-                    const DipHash with_isa = draw_hash(settings, false, (DipIsa)isa, 2, &other);
-                    assert_true(same_hash(&first, &with_isa));
+                    draw_hash(settings, false, (DipIsa)isa, 2, other);
+                    assert_string_equal(first, other);
                 }
             }
             shadowed += planned.counters.fragments_shadowed > 0;
@@ -557,16 +481,16 @@ static void plan_threads_and_instructions_change_no_bit(void **state) {
 static void scenes_without_a_sun_take_nothing(void **state) {
     (void)state;
     for (int kind = 0; kind < DIP_TEST_SCENE_COUNT; kind++) {
-        DipFrame off, on;
+        char before[33], after[33];
         dip_test_scene_make(&scene, (DipTestSceneKind)kind);
         for (int l = 0; scene.def.lighting && l < scene.lighting.light_count; l++) {
             scene.lights[l].kind = DIP_LIGHT_POINT;
             scene.lights[l].attenuation[0] = 1.0f;
         }
         const DipIsa isa = dip_isa_best();
-        const DipHash before = draw_hash("shadows=off", false, isa, 1, &off);
-        const DipHash after = draw_hash("shadows=2048", false, isa, 1, &on);
-        assert_true(same_hash(&before, &after));
+        const DipFrame off = draw_hash("shadows=off", false, isa, 1, before);
+        const DipFrame on = draw_hash("shadows=2048", false, isa, 1, after);
+        assert_string_equal(before, after);
         assert_memory_equal(&off.counters, &on.counters, sizeof off.counters);
         assert_int_equal(on.counters.shadow_bytes, 0);
         assert_string_equal(off.effects.shadows.why, "shadows is off");
@@ -576,9 +500,8 @@ static void scenes_without_a_sun_take_nothing(void **state) {
 }
 
 static DipFrame draw_yard(const char *settings) {
-    DipFrame frame;
-    draw_hash(settings, false, dip_isa_best(), 1, &frame);
-    return frame;
+    char hash[33];
+    return draw_hash(settings, false, dip_isa_best(), 1, hash);
 }
 
 static void plan_says_why_there_are_no_shadows(void **state) {
@@ -648,7 +571,7 @@ static void map_moves_by_whole_texels(void **state) {
     int changes = 0;
     make_yard(PHONG);
     collect_triangles();
-    Stage stage = open_stage(renderer_def(""), 1);
+    Stage stage = stage_open(&scene.def, renderer_def(""), 1);
     DipShadowFit before;
     for (int step = 0; step < STEPS; step++) {
         scene.pose.position_world[0] = 0.01 * step - 0.6;
@@ -670,7 +593,7 @@ static void map_moves_by_whole_texels(void **state) {
         }
         before = fit;
     }
-    close_stage(&stage);
+    stage_close(&stage);
     dip_test_scene_free(&scene);
     assert_true(changes <= 4);
 }

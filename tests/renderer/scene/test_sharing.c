@@ -2,8 +2,7 @@
 // pixels from another frame has the same bits as the frame drawn alone, in every scene, from
 // several viewpoints, with every instruction set and several numbers of threads; and what it copied
 // and what it shaded add up to what it shades alone.
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -57,11 +56,9 @@ typedef struct Panes {
 } Panes;
 
 static DipRendererDef pane_def(DipPool *pool, DipIsa isa, const DipTestScene *scene) {
-    DipRendererDef def = dip_renderer_default_def();
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, "");
     def.pool = pool;
     def.isa = isa;
-    def.width = WIDTH;
-    def.height = HEIGHT;
     def.reflection = scene->reflection;
     return def;
 }
@@ -145,8 +142,7 @@ static void for_all_scenes(DipIsa isa, int threads,
         const DipRendererDef def = pane_def(pool, isa, &scene);
         Panes panes = {.scene = fast};
         for (int p = 0; p < 2; p++) {
-            panes.renderers[p] = dip_renderer_create(&def, NULL);
-            assert_non_null(panes.renderers[p]);
+            panes.renderers[p] = stage_make_renderer(&def);
         }
         draw_all(&panes, &scene);
         dip_renderer_destroy(&panes.renderers[0]);
@@ -226,7 +222,7 @@ static void nothing_is_copied_where_the_work_of_a_pane_is_wanted(void **state) {
         def.force_all_effects = !recording;
         Panes panes = {.scene = fast, .pose = scene.pose};
         for (int p = 0; p < 2; p++) {
-            panes.renderers[p] = dip_renderer_create(&def, NULL);
+            panes.renderers[p] = stage_make_renderer(&def);
         }
         set_pair(&panes, &pairs[0]);
         for (int pane = 0; pane < 2; pane++) {

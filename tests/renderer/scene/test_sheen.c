@@ -1,9 +1,10 @@
 // Tests the sheen of cloth: balls under the fixed light against the formulas of
 // KHR_materials_sheen, which this file computes for each pixel in double precision.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
+#include "vec.h"
 
-#include "renderer/scene/renderer.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -42,10 +43,6 @@ static void make_cloth(float grey) {
 }
 
 // --- the formulas --------------------------------------------------------------------------------
-
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 // The share of uniform light that a white sheen sends to the eye: the curve that three.js fits to
 // the distribution's integral.
@@ -104,24 +101,8 @@ static void shade(int ball, double grey, const double n[3], const double to_eye[
     }
 }
 
-static double decode(uint8_t code) {
-    const double x = code / 255.0;
-    return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
-}
-
-static DipFrame draw(DipPool *pool, DipScene **fast, DipRenderer **renderer) {
-    DipError err = {0};
-    DipFrame frame;
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    assert_true(dip_quality_parse("aa=none", &def.quality, NULL));
-    *fast = dip_scene_create(&scene.def, NULL, &err);
-    *renderer = dip_renderer_create(&def, NULL);
-    assert_true(*fast && *renderer);
-    assert_true(dip_renderer_draw(*renderer, *fast, &scene.pose, 0, &frame, &err));
-    return frame;
+static Stage open_stage(void) {
+    return stage_open(&scene.def, stage_def(WIDTH, HEIGHT, "aa=none"), 1);
 }
 
 static void cloth_has_the_sheen_of_the_formulas(void **state) {
@@ -129,11 +110,9 @@ static void cloth_has_the_sheen_of_the_formulas(void **state) {
     static const float greys[] = {0.0f, 0.6f};
     const double half = tan(18.0 * acos(-1.0) / 180.0);
     for (int g = 0; g < 2; g++) {
-        DipPool *pool = dip_pool_create(1, NULL);
-        DipScene *fast;
-        DipRenderer *renderer;
         make_cloth(greys[g]);
-        const DipFrame frame = draw(pool, &fast, &renderer);
+        Stage stage = open_stage();
+        const DipFrame frame = stage_draw(&stage, &scene.pose, 0);
         double sum2[BALLS] = {0.0};
         double greatest = 0.0;
         int count[BALLS] = {0};
@@ -152,9 +131,9 @@ static void cloth_has_the_sheen_of_the_formulas(void **state) {
                 continue;
             }
             shade(ball, (double)greys[g], normal, to_eye, expected);
-            const uint8_t *pixel = frame.rgba8 + (size_t)y * frame.stride_bytes + 4 * (size_t)x;
+            const uint8_t *pixel = dip_image_pixel(&frame, x, y);
             for (int c = 0; c < 3; c++) {
-                const double error = decode(pixel[c]) - expected[c];
+                const double error = srgb_light(pixel[c]) - expected[c];
                 sum2[ball] += error * error;
                 greatest = fmax(greatest, fabs(error));
             }
@@ -169,9 +148,7 @@ static void cloth_has_the_sheen_of_the_formulas(void **state) {
         assert_true(greatest < 0.03);
         assert_true(frame.effects.sheen.run);
         assert_int_equal(frame.counters.fragments_sheen, frame.counters.fragments_pbr);
-        dip_renderer_destroy(&renderer);
-        dip_scene_destroy(&fast);
-        dip_pool_destroy(&pool);
+        stage_close(&stage);
         author_free(&scene);
     }
 }
@@ -181,16 +158,12 @@ static void a_smooth_sheen_is_that_of_a_tenth(void **state) {
     (void)state;
     char hashes[2][33];
     for (int i = 0; i < 2; i++) {
-        DipPool *pool = dip_pool_create(1, NULL);
-        DipScene *fast;
-        DipRenderer *renderer;
         make_cloth(0.3f);
         scene.pbrs[0].sheen_roughness = i ? 0.1f : 0.0f;
-        const DipFrame frame = draw(pool, &fast, &renderer);
+        Stage stage = open_stage();
+        const DipFrame frame = stage_draw(&stage, &scene.pose, 0);
         dip_frame_hash(&frame, hashes[i]);
-        dip_renderer_destroy(&renderer);
-        dip_scene_destroy(&fast);
-        dip_pool_destroy(&pool);
+        stage_close(&stage);
         author_free(&scene);
     }
     assert_string_equal(hashes[0], hashes[1]);

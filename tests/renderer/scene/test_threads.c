@@ -1,7 +1,6 @@
 // Tests that any number of threads draws the same picture and counts the same work. Also tests that
 // drawing a scene again, or at another size, does not change later pictures.
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <pthread.h>
 #include <setjmp.h>
@@ -27,15 +26,10 @@ typedef struct Result {
 
 static DipRenderer *pane_of(DipPool *pool, const DipTestScene *scene, const char *text,
                             const int size[2]) {
-    DipRendererDef def = dip_renderer_default_def();
+    DipRendererDef def = stage_def(size[0], size[1], text);
     def.pool = pool;
-    def.width = size[0];
-    def.height = size[1];
     def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(text, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
+    return stage_make_renderer(&def);
 }
 
 // Draws a scene twice, with a pool that serves only this function.
@@ -90,13 +84,9 @@ static void panes_that_share_a_scene_do_not_disturb_each_other(void **state) {
     DipRenderer *renderers[2];
     char expected[2][33];
     for (int p = 0; p < 2; p++) {
-        DipRendererDef def = dip_renderer_default_def();
+        DipRendererDef def = stage_def(120 + 30 * p, 90, settings[p]);
         def.pool = pool;
-        def.width = 120 + 30 * p;
-        def.height = 90;
-        assert_true(dip_quality_parse(settings[p], &def.quality, NULL));
-        renderers[p] = dip_renderer_create(&def, NULL);
-        assert_non_null(renderers[p]);
+        renderers[p] = stage_make_renderer(&def);
     }
     for (int round = 0; round < 3; round++) {
         for (int p = 0; p < 2; p++) {
@@ -190,12 +180,9 @@ static void changes_show_in_the_next_frame(void **state) {
     dip_test_scene_make(&scene, DIP_TEST_SCENE_grazing_noise);
     DipScene *fast = dip_scene_create(&scene.def, NULL, NULL);
     DipPool *pool = dip_pool_create(2, NULL);
-    DipRendererDef def = dip_renderer_default_def();
+    DipRendererDef def = stage_def(96, 64, "");
     def.pool = pool;
-    def.width = 96;
-    def.height = 64;
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
+    DipRenderer *renderer = stage_make_renderer(&def);
     static const char *const changes[] = {"",
                                           "aa=2",
                                           "aa=4",

@@ -1,7 +1,6 @@
 // Tests the records of tiles. In every scene, with every instruction set and several numbers of
 // threads, the records add up to the counters of the frame, and recording changes no pixel.
-#include "renderer/scene/renderer.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,16 +19,11 @@ enum { SETTINGS = 5, WIDTH = 200, HEIGHT = 150, ACROSS = 4, DOWN = 3, TILES = AC
 
 static DipRenderer *make_renderer(DipPool *pool, DipIsa isa, const DipTestScene *scene,
                                   const char *text) {
-    DipRendererDef def = dip_renderer_default_def();
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, text);
     def.pool = pool;
     def.isa = isa;
-    def.width = WIDTH;
-    def.height = HEIGHT;
     def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(text, &def.quality, NULL));
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(renderer);
-    return renderer;
+    return stage_make_renderer(&def);
 }
 
 // Sums the counters and the time of all tiles.

@@ -1,10 +1,10 @@
 // Tests surfaces that transmit light: panes before a wall against closed forms, and scenes of glass
 // against the reference renderer, which sorts each sample by itself.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
 
 #include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -21,52 +21,15 @@ enum { WIDTH = 160, HEIGHT = 120 };
 
 static AuthorScene scene;
 
-// A renderer for `scene`.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
-static Stage open_stage(const char *settings, const DipReflectionDef *reflection, bool plain) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(2, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
+static Stage open_stage(const char *settings, bool plain) {
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.plain_surfaces = plain;
-    if (reflection) {
-        def.reflection = *reflection;
-    }
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    stage.renderer = dip_renderer_create(&def, NULL);
-    assert_true(stage.scene && stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
+    def.reflection = scene.reflection;
+    return stage_open(&scene.def, def, 2);
 }
 
 static DipFrame draw(const Stage *stage) {
-    DipFrame frame;
-    DipError err = {0};
-    if (!dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return frame;
-}
-
-static const uint8_t *centre_of(const DipFrame *frame) {
-    return frame->rgba8 + HEIGHT / 2 * frame->stride_bytes + WIDTH / 2 * 4;
-}
-
-static int encode(double x) {
-    return (int)lround(255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055));
+    return stage_draw(stage, &scene.pose, 0);
 }
 
 // --- closed forms --------------------------------------------------------------------------------
@@ -99,17 +62,17 @@ static DipMaterialDef *make_pane(float transmission, float f0, float f90) {
 static void expect(const double rgb[3], int codes) {
     static const char *const settings[] = {"aa=none", "aa=4"};
     for (int s = 0; s < 2; s++) {
-        Stage stage = open_stage(settings[s], NULL, false);
+        Stage stage = open_stage(settings[s], false);
         const DipFrame frame = draw(&stage);
         for (int c = 0; c < 3; c++) {
-            assert_true(abs(centre_of(&frame)[c] - encode(rgb[c])) <= codes);
+            assert_true(abs(dip_image_centre(&frame)[c] - srgb_code(rgb[c])) <= codes);
         }
-        assert_int_equal(centre_of(&frame)[3], 255);
+        assert_int_equal(dip_image_centre(&frame)[3], 255);
         assert_true(frame.effects.transmission.run && frame.effects.blend.run);
         assert_true(frame.counters.fragments_transmitting >= WIDTH * HEIGHT);
         assert_int_equal(frame.counters.fragments_blended,
                          2 * frame.counters.fragments_transmitting);
-        close_stage(&stage);
+        stage_close(&stage);
     }
 }
 
@@ -165,13 +128,13 @@ static void what_is_opaque_hides_the_wall(void **state) {
             scene.pbrs[1].metallic = i ? 1.0f : 0.0f;
             pane->surface = i ? DIP_SURFACE_BLENDED : DIP_SURFACE_OPAQUE;
             scene.materials[0].base_colour_lin[1] = k ? 0.5f : 0.1f;
-            Stage stage = open_stage("aa=none", NULL, false);
+            Stage stage = open_stage("aa=none", false);
             const DipFrame frame = draw(&stage);
             dip_frame_hash(&frame, hashes[k]);
             assert_true(i || !frame.effects.transmission.run);
             assert_true(i || strcmp(frame.effects.transmission.why,
                                     "no metallic-roughness surface transmits light") == 0);
-            close_stage(&stage);
+            stage_close(&stage);
             author_free(&scene);
         }
         assert_string_equal(hashes[0], hashes[1]);
@@ -182,74 +145,36 @@ static void what_is_opaque_hides_the_wall(void **state) {
 static void a_plain_pane_is_blended(void **state) {
     (void)state;
     make_pane(0.75f, 0.04f, 1.0f);
-    Stage stage = open_stage("aa=none", NULL, true);
+    Stage stage = open_stage("aa=none", true);
     const DipFrame frame = draw(&stage);
     const double light = 0.35 + 0.65 * 0.61079455;
     for (int c = 0; c < 3; c++) {
         const double expected = 0.25 * (double)pane_lin[c] * light + 0.75 * (double)wall_lin[c];
-        assert_true(abs(centre_of(&frame)[c] - encode(expected)) <= 1);
+        assert_true(abs(dip_image_centre(&frame)[c] - srgb_code(expected)) <= 1);
     }
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
 // --- against the reference -----------------------------------------------------------------------
 
-static void compare(const char *name, const char *settings, const DipReflectionDef *reflection) {
-    DipError err = {0};
-    Stage stage = open_stage(settings, reflection, false);
-    const DipFrame frame = draw(&stage);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
-    DipReference *reference = dip_reference_create(&scene.def, &err);
-    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
-    assert_true(reference && rgb_lin);
-    if (reflection) {
-        dip_reference_set_reflection(reference, reflection);
-    }
-    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
-    const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
-    printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
-           error.max_lin, error.over_count, error.psnr_db);
+static void compare(const char *name, const char *settings) {
     static const DipImageBounds bounds = {
         .rms_lin = 0.004, .pixel_lin = 0.02, .over_share = 0.003, .over_max_lin = 0.6};
-    assert_true(dip_image_check(name, rgb_lin, &frame, &bounds));
-    free(rgb_lin);
-    dip_reference_destroy(&reference);
-    close_stage(&stage);
-}
-
-// The panes and the ball of author_make_panes as glass: tinted, partly transmissive, rough, coated,
-// double-sided, with a texture of alpha, and with a sheen.
-static void make_glass(void) {
-    author_make_panes(&scene);
-    const float transmissions[4] = {1.0f, 0.6f, 0.9f, 0.7f};
-    for (int m = 0; m < 4; m++) {
-        DipPbrDef *pbr = &scene.pbrs[m];
-        scene.materials[m].pbr = pbr;
-        scene.materials[m].opacity = m == 3 ? 0.9f : 1.0f;
-        pbr->transmission = transmissions[m];
-    }
-    scene.pbrs[1].roughness = 0.5f;
-    scene.pbrs[1].sheen_lin[0] = 0.5f;
-    scene.pbrs[1].sheen_roughness = 0.4f;
-    scene.pbrs[2].coat = 0.8f;
-    scene.pbrs[3].metallic = 0.3f;
+    Stage stage = open_stage(settings, false);
+    stage_compare(&stage, &scene.pose, name, settings, &bounds);
+    stage_close(&stage);
 }
 
 static void glass_equals_the_reference(void **state) {
     (void)state;
-    make_glass();
-    compare("glass", "aa=none", NULL);
-    compare("glass", "aa=4,af=8", NULL);
-    compare("glass", "aa=8,aaa=all,asd=1", NULL);
-    const int water = author_add_pbr(&scene, 0.0f, 1.0f);
-    scene.materials[water].surface = DIP_SURFACE_WATER;
-    scene.materials[water].pbr = NULL;
-    scene.materials[water].base_colour_lin[0] = 0.05f;
-    author_add_quad(&scene, water, (const float[]){-9.0f, -1.0f, 6.0f}, (const float[]){18, 0, 0},
-                    (const float[]){0, 0, -8});
-    const DipReflectionDef reflection = {.width = WIDTH, .height = HEIGHT, .level_m = -1.0};
-    compare("glass_in_water", "aa=2", &reflection);
+    author_make_glass(&scene);
+    scene.pbrs[1].roughness = 0.5f; // which blurs nothing without scattering
+    compare("glass", "aa=none");
+    compare("glass", "aa=4,af=8");
+    compare("glass", "aa=8,aaa=all,asd=1");
+    author_add_water(&scene, WIDTH, HEIGHT);
+    compare("glass_in_water", "aa=2");
     author_free(&scene);
 }
 

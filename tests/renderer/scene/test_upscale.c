@@ -1,9 +1,8 @@
 // Scales below 1: a frame is the smaller picture, enlarged. The filters are compared with models in
 // double precision, and the smaller picture with a frame of its size.
-#include "renderer/catalogue/scenes.h"
 #include "renderer/post/post.h"
-#include "renderer/scene/renderer.h"
 #include "tests/renderer/post/post_model.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -16,57 +15,19 @@
 
 #include <cmocka.h>
 
-typedef struct Stage {
-    DipTestScene scene;
-    DipPool *pool;
-    DipScene *made;
-    DipRenderer *renderer;
-} Stage;
-
-static void open_stage(Stage *stage, DipTestSceneKind kind, int width, int height, int threads,
-                       DipIsa isa, bool forced) {
-    dip_test_scene_make(&stage->scene, kind);
-    stage->pool = dip_pool_create(threads, NULL);
-    stage->made = dip_scene_create(&stage->scene.def, NULL, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage->pool;
+static Stage open_stage(DipTestSceneKind kind, int width, int height, int threads, DipIsa isa,
+                        bool forced) {
+    DipRendererDef def = stage_def(width, height, "");
     def.isa = isa;
-    def.width = width;
-    def.height = height;
-    def.reflection = stage->scene.reflection;
     def.force_all_effects = forced;
-    stage->renderer = dip_renderer_create(&def, NULL);
-    assert_non_null(stage->made);
-    assert_non_null(stage->renderer);
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->made);
-    dip_pool_destroy(&stage->pool);
-    dip_test_scene_free(&stage->scene);
-}
-
-static DipFrame draw(Stage *stage, const char *settings) {
-    DipQuality quality;
-    DipFrame frame = {.rgba8 = NULL};
-    DipError err = {0};
-    if (!dip_quality_parse(settings, &quality, &err) ||
-        !dip_renderer_set_quality(stage->renderer, &quality, &err) ||
-        !dip_renderer_draw(stage->renderer, stage->made, &stage->scene.pose, 0, &frame, &err)) {
-        fail_msg("%s: %s", settings, err.message);
-    }
-    return frame;
+    return stage_open_kind(kind, def, threads);
 }
 
 // Returns a copy of a frame's pixels, without padding.
 static uint8_t *pixels_of(const DipFrame *frame) {
-    const size_t row = (size_t)frame->width * 4;
-    uint8_t *pixels = malloc(row * (size_t)frame->height);
+    uint8_t *pixels = malloc((size_t)frame->width * (size_t)frame->height * 4);
     assert_non_null(pixels);
-    for (size_t y = 0; y < (size_t)frame->height; y++) {
-        memcpy(pixels + y * row, frame->rgba8 + y * frame->stride_bytes, row);
-    }
+    dip_image_copy(frame, pixels);
     return pixels;
 }
 
@@ -116,18 +77,17 @@ static int count_other_pixels(const uint8_t *small, const uint8_t *enlarged, int
 static void frames_are_the_models_of_the_smaller_picture(void **state) {
     (void)state;
     for (int i = 0; i < SIZES; i++) {
-        Stage whole, small;
-        open_stage(&whole, DIP_TEST_SCENE_lit_sphere, sizes[i].width, sizes[i].height, 1,
-                   dip_isa_best(), false);
-        open_stage(&small, DIP_TEST_SCENE_lit_sphere, sizes[i].drawn_width, sizes[i].drawn_height,
-                   1, dip_isa_best(), false);
-        const DipFrame drawn = draw(&small, "aa=4");
+        Stage whole = open_stage(DIP_TEST_SCENE_lit_sphere, sizes[i].width, sizes[i].height, 1,
+                                 dip_isa_best(), false);
+        Stage small = open_stage(DIP_TEST_SCENE_lit_sphere, sizes[i].drawn_width,
+                                 sizes[i].drawn_height, 1, dip_isa_best(), false);
+        const DipFrame drawn = stage_draw_kind(&small, "aa=4");
         uint8_t *drawn_pixels = pixels_of(&drawn);
         for (int upscale = 0; upscale < 3; upscale++) {
             char settings[64];
             snprintf(settings, sizeof settings, "aa=4,scale=%s,upscale=%s", sizes[i].step,
                      filters[upscale]);
-            const DipFrame frame = draw(&whole, settings);
+            const DipFrame frame = stage_draw_kind(&whole, settings);
             uint8_t *pixels = pixels_of(&frame);
             assert_int_equal(frame.width, sizes[i].width);
             assert_int_equal(frame.height, sizes[i].height);
@@ -143,8 +103,8 @@ static void frames_are_the_models_of_the_smaller_picture(void **state) {
             free(pixels);
         }
         free(drawn_pixels);
-        close_stage(&small);
-        close_stage(&whole);
+        stage_close(&small);
+        stage_close(&whole);
     }
 }
 
@@ -152,12 +112,11 @@ static void frames_are_the_models_of_the_smaller_picture(void **state) {
 static void filters_are_applied_in_order(void **state) {
     (void)state;
     const int i = 2;
-    Stage whole, small;
-    open_stage(&whole, DIP_TEST_SCENE_lit_sphere, sizes[i].width, sizes[i].height, 1,
-               dip_isa_best(), false);
-    open_stage(&small, DIP_TEST_SCENE_lit_sphere, sizes[i].drawn_width, sizes[i].drawn_height, 1,
-               dip_isa_best(), false);
-    const DipFrame smoothed = draw(&small, "post=smaa");
+    Stage whole = open_stage(DIP_TEST_SCENE_lit_sphere, sizes[i].width, sizes[i].height, 1,
+                             dip_isa_best(), false);
+    Stage small = open_stage(DIP_TEST_SCENE_lit_sphere, sizes[i].drawn_width, sizes[i].drawn_height,
+                             1, dip_isa_best(), false);
+    const DipFrame smoothed = stage_draw_kind(&small, "post=smaa");
     const uint64_t edges = smoothed.counters.edges_found;
     const size_t row = (size_t)sizes[i].width * 4, bytes = row * (size_t)sizes[i].height;
     uint8_t *enlarged = malloc(bytes), *sharpened = malloc(bytes);
@@ -180,7 +139,8 @@ static void filters_are_applied_in_order(void **state) {
     post = dip_post_create(&def, NULL);
     dip_post_run(post, enlarged, row, sharpened, row);
     dip_post_destroy(&post);
-    const DipFrame frame = draw(&whole, "scale=1/1.5,upscale=easu,post=smaa,sharpen=medium");
+    const DipFrame frame =
+        stage_draw_kind(&whole, "scale=1/1.5,upscale=easu,post=smaa,sharpen=medium");
     uint8_t *pixels = pixels_of(&frame);
     assert_memory_equal(pixels, sharpened, bytes);
     assert_int_equal(frame.counters.edges_found, edges);
@@ -189,32 +149,30 @@ static void filters_are_applied_in_order(void **state) {
     free(pixels);
     free(enlarged);
     free(sharpened);
-    close_stage(&small);
-    close_stage(&whole);
+    stage_close(&small);
+    stage_close(&whole);
 }
 
 static void plan_gives_the_reason(void **state) {
     (void)state;
-    Stage stage;
-    open_stage(&stage, DIP_TEST_SCENE_lit_sphere, 64, 48, 1, dip_isa_best(), false);
-    DipFrame frame = draw(&stage, "upscale=easu");
+    Stage stage = open_stage(DIP_TEST_SCENE_lit_sphere, 64, 48, 1, dip_isa_best(), false);
+    DipFrame frame = stage_draw_kind(&stage, "upscale=easu");
     assert_false(frame.effects.upscale.run);
     assert_string_equal(frame.effects.upscale.why, "scale is not below 1");
-    frame = draw(&stage, "scale=2,upscale=easu");
+    frame = stage_draw_kind(&stage, "scale=2,upscale=easu");
     assert_false(frame.effects.upscale.run);
-    frame = draw(&stage, "scale=1/1.3");
+    frame = stage_draw_kind(&stage, "scale=1/1.3");
     assert_true(frame.effects.upscale.run);
     assert_string_equal(frame.effects.upscale.why, "a smaller picture is drawn and enlarged");
-    close_stage(&stage);
+    stage_close(&stage);
 }
 
 // The hash of a frame with all effects of the water's scene.
 static void hash_of(const char *settings, int threads, DipIsa isa, bool forced, char hash[33]) {
-    Stage stage;
-    open_stage(&stage, DIP_TEST_SCENE_water_effects, 150, 99, threads, isa, forced);
-    const DipFrame frame = draw(&stage, settings);
+    Stage stage = open_stage(DIP_TEST_SCENE_water_effects, 150, 99, threads, isa, forced);
+    const DipFrame frame = stage_draw_kind(&stage, settings);
     dip_frame_hash(&frame, hash);
-    close_stage(&stage);
+    stage_close(&stage);
 }
 
 static void threads_instruction_sets_and_the_plan_change_no_byte(void **state) {
@@ -244,38 +202,37 @@ static void what_is_off_changes_no_byte(void **state) {
     static const char *const rows[] = {"aa=2", "aa=2,upscale=easu", "aa=2,scale=1/1.5,upscale=easu",
                                        "aa=2,scale=1/1.5,upscale=bicubic", "aa=2,upscale=bicubic"};
     static const bool same[] = {true, true, false, false, true};
-    Stage stage;
     char hashes[5][33];
-    open_stage(&stage, DIP_TEST_SCENE_water, 160, 120, 1, dip_isa_best(), false);
+    Stage stage = open_stage(DIP_TEST_SCENE_water, 160, 120, 1, dip_isa_best(), false);
     assert_true(dip_renderer_record_tiles(stage.renderer, true, NULL));
     for (int i = 0; i < 5; i++) {
-        const DipFrame frame = draw(&stage, rows[i]);
+        const DipFrame frame = stage_draw_kind(&stage, rows[i]);
         dip_frame_hash(&frame, hashes[i]);
         assert_int_equal(frame.tiles.records != NULL, same[i]);
         assert_int_equal(!strcmp(hashes[i], hashes[0]), same[i]);
     }
     assert_string_not_equal(hashes[2], hashes[3]);
-    close_stage(&stage);
+    stage_close(&stage);
 }
 
 static void frames_of_a_few_pixels_are_drawn(void **state) {
     (void)state;
     static const int few[][2] = {{1, 1}, {2, 1}, {1, 3}, {3, 2}};
     for (int i = 0; i < 4; i++) {
-        Stage stage;
-        open_stage(&stage, DIP_TEST_SCENE_water, few[i][0], few[i][1], 1, dip_isa_best(), false);
+        Stage stage =
+            open_stage(DIP_TEST_SCENE_water, few[i][0], few[i][1], 1, dip_isa_best(), false);
         for (int s = 0; s < SIZES; s++) {
             for (int upscale = 0; upscale < 3; upscale++) {
                 char settings[64];
                 snprintf(settings, sizeof settings, "scale=%s,upscale=%s,post=fxaa", sizes[s].step,
                          filters[upscale]);
-                const DipFrame frame = draw(&stage, settings);
+                const DipFrame frame = stage_draw_kind(&stage, settings);
                 assert_int_equal(frame.width, few[i][0]);
                 assert_int_equal(frame.height, few[i][1]);
                 assert_int_equal(frame.rgba8[3], 255);
             }
         }
-        close_stage(&stage);
+        stage_close(&stage);
     }
 }
 

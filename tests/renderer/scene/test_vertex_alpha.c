@@ -1,10 +1,9 @@
 // Tests the alpha of vertices: blended and clipped panes against closed forms, and scenes with
 // textures, lights and shadows against the reference renderer.
 #include "author_scenes.h"
-#include "image.h"
+#include "stage.h"
 
-#include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
+#include "tests/support/srgb.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -22,48 +21,14 @@ enum { WIDTH = 160, HEIGHT = 120 };
 static AuthorScene scene;
 static float alphas[AUTHOR_PARTS][8192];
 
-// A renderer for `scene`.
-typedef struct Stage {
-    DipPool *pool;
-    DipScene *scene;
-    DipRenderer *renderer;
-} Stage;
-
 static Stage open_stage(const char *settings, DipIsa isa) {
-    DipError err = {0};
-    Stage stage = {.pool = dip_pool_create(2, NULL),
-                   .scene = dip_scene_create(&scene.def, NULL, &err)};
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = stage.pool;
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.isa = isa;
-    def.width = WIDTH;
-    def.height = HEIGHT;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    stage.renderer = dip_renderer_create(&def, NULL);
-    if (!stage.scene) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    assert_non_null(stage.renderer);
-    return stage;
-}
-
-static void close_stage(Stage *stage) {
-    dip_renderer_destroy(&stage->renderer);
-    dip_scene_destroy(&stage->scene);
-    dip_pool_destroy(&stage->pool);
+    return stage_open(&scene.def, def, 2);
 }
 
 static DipFrame draw(const Stage *stage) {
-    DipFrame frame;
-    DipError err = {0};
-    if (!dip_renderer_draw(stage->renderer, stage->scene, &scene.pose, 0, &frame, &err)) {
-        fail_msg("%s: %s", err.key, err.message);
-    }
-    return frame;
-}
-
-static int encode(double x) {
-    return (int)lround(255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055));
+    return stage_draw(stage, &scene.pose, 0);
 }
 
 // Gives a mesh the alpha (1 + first + slope . p) / 2 at each position p, within 0..1. The positions
@@ -127,14 +92,14 @@ static void the_alpha_of_the_vertices_blends(void **state) {
             Stage stage = open_stage("aa=none", (DipIsa)isa);
             const DipFrame frame = draw(&stage);
             for (int x = 0; x < WIDTH; x++) {
-                const uint8_t *pixel = frame.rgba8 + 37 * frame.stride_bytes + 4 * x;
+                const uint8_t *pixel = dip_image_pixel(&frame, x, 37);
                 for (int c = 0; c < 3; c++) {
                     const double expected =
                         alpha_at(x + 0.5, textured, 8.0) * 0.8 * (double)colour[c];
-                    assert_true(abs(pixel[c] - encode(expected)) <= 1);
+                    assert_true(abs(pixel[c] - srgb_code(expected)) <= 1);
                 }
             }
-            close_stage(&stage);
+            stage_close(&stage);
         }
         author_free(&scene);
     }
@@ -172,16 +137,16 @@ static void the_alpha_of_the_vertices_clips(void **state) {
                     continue; // the pane's edge
                 }
                 const double share = kept_share(x, textured, width, ways[w].samples);
-                const uint8_t *pixel = frame.rgba8 + 37 * frame.stride_bytes + 4 * x;
+                const uint8_t *pixel = dip_image_pixel(&frame, x, 37);
                 for (int c = 0; c < 3; c++) {
-                    assert_true(abs(pixel[c] - encode(share * (double)colour[c])) <= 1);
+                    assert_true(abs(pixel[c] - srgb_code(share * (double)colour[c])) <= 1);
                 }
                 partial += share > 0.0 && share < 1.0;
                 kept += share == 1.0;
             }
             assert_true(kept > 0 && kept < 12);
             assert_true(ways[w].samples == 1 || partial > 0);
-            close_stage(&stage);
+            stage_close(&stage);
         }
         author_free(&scene);
     }
@@ -193,9 +158,9 @@ static void an_opaque_surface_ignores_it(void **state) {
     Stage stage = open_stage("aa=none", dip_isa_best());
     const DipFrame frame = draw(&stage);
     for (int c = 0; c < 3; c++) {
-        assert_int_equal(frame.rgba8[c], encode((double)colour[c]));
+        assert_int_equal(frame.rgba8[c], srgb_code((double)colour[c]));
     }
-    close_stage(&stage);
+    stage_close(&stage);
     author_free(&scene);
 }
 
@@ -217,26 +182,14 @@ static void numbers_out_of_range_are_refused(void **state) {
 
 // Where a map of 1024 texels shows shadows, their edges lie up to a texel beside those of rays.
 static void compare(const char *name, const char *settings) {
-    DipError err = {0};
-    Stage stage = open_stage(settings, dip_isa_best());
-    const DipFrame frame = draw(&stage);
-    const DipQuality quality = dip_renderer_quality(stage.renderer);
-    DipReference *reference = dip_reference_create(&scene.def, &err);
-    double *rgb_lin = malloc(WIDTH * HEIGHT * 3 * sizeof *rgb_lin);
-    assert_true(reference && rgb_lin);
-    assert_true(dip_reference_draw(reference, &quality, &scene.pose, WIDTH, HEIGHT, rgb_lin, &err));
-    const DipImageError error = dip_image_compare(rgb_lin, &frame, 0.02);
-    printf("%s %s: rms %.5f, max %.3f, %zu over 0.02, %.1f dB\n", name, settings, error.rms_lin,
-           error.max_lin, error.over_count, error.psnr_db);
     const bool shadows = strstr(settings, "shadows") != NULL;
     const DipImageBounds bounds = {.rms_lin = shadows ? 0.01 : 0.004,
                                    .pixel_lin = 0.02,
                                    .over_share = shadows ? 0.006 : 0.003,
                                    .over_max_lin = 0.6};
-    assert_true(dip_image_check(name, rgb_lin, &frame, &bounds));
-    free(rgb_lin);
-    dip_reference_destroy(&reference);
-    close_stage(&stage);
+    Stage stage = open_stage(settings, dip_isa_best());
+    stage_compare(&stage, &scene.pose, name, settings, &bounds);
+    stage_close(&stage);
 }
 
 // The panes of author_make_panes with alphas, and clipped balls, one of them with a texture whose

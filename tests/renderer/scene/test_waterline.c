@@ -1,11 +1,8 @@
 // Compares lakes, seen from eyes 0.01 mm to 1 cm above the water, with the reference. The near
 // plane cuts the water and the shore there, and the plane of the mirrored scene passes close to the
 // eye.
-#include "renderer/reference/reference.h"
-#include "renderer/scene/renderer.h"
 #include "renderer/catalogue/random.h"
-#include "tests/renderer/scene/image.h"
-#include "renderer/catalogue/scenes.h"
+#include "tests/renderer/scene/stage.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,6 +10,7 @@
 #include <stdint.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -77,30 +75,14 @@ static void place(DipTestScene *scene, Random *random, double size, double above
 }
 
 static DipImageError compare(const DipTestScene *scene, const char *settings) {
-    static double expected[WIDTH * HEIGHT * 3];
-    DipReference *reference = dip_reference_create(&scene->def, NULL);
-    DipPool *pool = dip_pool_create(1, NULL);
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = pool;
-    def.width = WIDTH;
-    def.height = HEIGHT;
+    DipRendererDef def = stage_def(WIDTH, HEIGHT, settings);
     def.reflection = scene->reflection;
-    assert_true(dip_quality_parse(settings, &def.quality, NULL));
-    DipScene *fast = dip_scene_create(&scene->def, NULL, NULL);
-    DipRenderer *renderer = dip_renderer_create(&def, NULL);
-    DipFrame frame;
-    assert_non_null(reference);
-    assert_non_null(fast);
-    assert_non_null(renderer);
-    dip_reference_set_reflection(reference, &scene->reflection);
-    assert_true(
-        dip_reference_draw(reference, &def.quality, &scene->pose, WIDTH, HEIGHT, expected, NULL));
-    assert_true(dip_renderer_draw(renderer, fast, &scene->pose, 0, &frame, NULL));
+    Stage stage = stage_open(&scene->def, def, 1);
+    const DipFrame frame = stage_draw(&stage, &scene->pose, 0);
+    double *expected = stage_draw_reference(&stage, &scene->pose);
     const DipImageError error = dip_image_compare(expected, &frame, 0.01);
-    dip_renderer_destroy(&renderer);
-    dip_scene_destroy(&fast);
-    dip_pool_destroy(&pool);
-    dip_reference_destroy(&reference);
+    free(expected);
+    stage_close(&stage);
     return error;
 }
 

@@ -203,12 +203,6 @@ static const FpWalkEntry entries[] = {
     {"domain function", call_domain},
 };
 
-static void the_mode_of_the_caller_changes_nothing(void **state) {
-    (void)state;
-    fp_walk(entries, sizeof entries / sizeof *entries);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_mode_of_the_caller_changes_nothing)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return fp_walk_main(entries, sizeof entries / sizeof *entries, NULL, NULL);
 }
