@@ -344,8 +344,37 @@ static void invalid_input_is_refused(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// Both renderers accept textures of 1 to 8192 texels in each direction, and no others.
+static void textures_have_the_same_limits_in_both_renderers(void **state) {
+    (void)state;
+    static const int sizes[] = {-1, 0, 1, 8192, 8193};
+    static uint8_t texels[4 * 8193];
+    for (int i = 0; i < 5; i++) {
+        for (int high = 0; high < 2; high++) {
+            DipTestScene scene;
+            DipError err;
+            dip_screen_begin(&scene);
+            const int material = dip_screen_add_white(&scene);
+            scene.materials[material].colour_texture =
+                dip_test_scene_add_texture(&scene, DIP_TEST_CHECKER, 1, 1);
+            dip_screen_add_cover(&scene, material, 1.0f, 1.0f);
+            scene.textures[0].width = high ? 1 : sizes[i];
+            scene.textures[0].height = high ? sizes[i] : 1;
+            scene.textures[0].rgba8 = texels;
+            DipReference *reference = dip_reference_create(&scene.def, &err);
+            DipScene *fast = dip_scene_create(&scene.def, NULL, &err);
+            assert_int_equal(reference != NULL, sizes[i] >= 1 && sizes[i] <= 8192);
+            assert_int_equal(fast != NULL, sizes[i] >= 1 && sizes[i] <= 8192);
+            dip_reference_destroy(&reference);
+            dip_scene_destroy(&fast);
+            dip_test_scene_free(&scene);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(textures_have_the_same_limits_in_both_renderers),
         cmocka_unit_test(interpolation_agrees_with_ray_casting),
         cmocka_unit_test(level_of_detail_on_the_ground_follows_the_jacobian),
         cmocka_unit_test(light_follows_the_normal),
