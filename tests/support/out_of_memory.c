@@ -77,6 +77,9 @@ static void check_error(const Try *try, const DipError *err) {
     if (!names_the_cause(line)) {
         refuse(try, "the error does not say that memory ran out: ", line);
     }
+    if (err->line != 0 && !err->file[0]) {
+        refuse(try, "the error names a line of no file: ", line);
+    }
     if (err->origin != DIP_ORIGIN_RUNTIME) {
         refuse(try, "the user gets the blame, exit code 2: ", line);
     }

@@ -1,6 +1,7 @@
 // Tests what the reference renderer does when memory runs out: a reference is made whole or not at
 // all, and after a failed picture it draws the right one.
 #include "renderer/reference/convergence.h"
+#include "renderer/reference/internal/differences.h"
 #include "renderer/reference/reference.h"
 #include "renderer/catalogue/scenes.h"
 #include "tests/support/out_of_memory.h"
@@ -67,6 +68,15 @@ static bool add_tile(void *context, DipError *err) {
                                     NULL, err);
 }
 
+static bool share(void *context, DipError *err) {
+    (void)context;
+    return dip_reference_share_differences(fixture.reference, err);
+}
+
+static bool share_and_draw(void *context, DipError *err) {
+    return share(context, err) && draw(context, err);
+}
+
 static void must_create(void *context) {
     assert_true(create(context, NULL));
 }
@@ -96,6 +106,11 @@ static void check_create(void *context, bool succeeded) {
 
 static void check_draw(void *context, bool succeeded) {
     assert_true(succeeded || draw(context, NULL));
+    assert_expected();
+}
+
+static void check_share(void *context, bool succeeded) {
+    assert_true(succeeded ? draw(context, NULL) : share_and_draw(context, NULL));
     assert_expected();
 }
 
@@ -173,6 +188,19 @@ static void failed_picture_can_be_drawn_again(void **state) {
     dip_test_scene_free(&fixture.made);
 }
 
+static void failed_rounding_can_be_repeated(void **state) {
+    (void)state;
+    begin(DIP_TEST_SCENE_water_effects, "aa=4");
+    expect(share_and_draw);
+    dip_out_of_memory_check(&(DipOutOfMemory){.name = "a reference that rounds as the renderer",
+                                              .prepare = must_create,
+                                              .run = share,
+                                              .check = check_share,
+                                              .finish = finish,
+                                              .needs_every_allocation = true});
+    dip_test_scene_free(&fixture.made);
+}
+
 static void failed_convergence_can_be_repeated(void **state) {
     (void)state;
     begin(DIP_TEST_SCENE_water_effects, "");
@@ -204,6 +232,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reference_is_made_whole_or_not_at_all),
         cmocka_unit_test(failed_picture_can_be_drawn_again),
+        cmocka_unit_test(failed_rounding_can_be_repeated),
         cmocka_unit_test(failed_convergence_can_be_repeated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
