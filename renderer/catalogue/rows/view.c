@@ -333,11 +333,11 @@ static void measure_bad_scenes(StabilityRun *run) {
 
 // Draws from a pose that must be refused.
 static void expect_refused_pose(StabilityRun *run, DipRenderer *renderer, const DipScene *scene,
-                                const DipPose *pose, const char *what) {
+                                const DipPose *pose, const char *what, double number) {
     DipError err = {0};
     DipFrame frame;
     const bool drawn = dip_renderer_draw(renderer, scene, pose, 0, &frame, &err);
-    stability_expect(run, !drawn && err.code == DIP_ERROR_RANGE, "%s: %s", what,
+    stability_expect(run, !drawn && err.code == DIP_ERROR_RANGE, "%s %g: %s", what, number,
                      drawn ? "accepted" : err.message);
 }
 
@@ -352,21 +352,24 @@ static void measure_bad_poses(StabilityRun *run) {
     DipScene *scene = dip_scene_create(&test_scene.def, run->pool, &err);
     DipRenderer *renderer = scene ? dip_renderer_create(&def, &err) : NULL;
     if (renderer) {
-        const DipPose good = test_scene.pose;
-        DipPose bad = good;
+        static const double not_finite[] = {NAN, INFINITY, -INFINITY};
+        static const double fields_deg[] = {-60.0, 0.0, 0.999, 170.001, 360.0};
+        DipPose bad = test_scene.pose;
         memset(bad.orientation, 0, sizeof bad.orientation);
-        expect_refused_pose(run, renderer, scene, &bad, "an orientation of length 0");
-        bad = good;
-        bad.orientation[2] = NAN;
-        expect_refused_pose(run, renderer, scene, &bad, "an orientation that is not a number");
-        bad = good;
-        bad.position_world[1] = INFINITY;
-        expect_refused_pose(run, renderer, scene, &bad, "an infinite position");
-        bad = good;
-        bad.fov_y_deg = 0.5;
-        expect_refused_pose(run, renderer, scene, &bad, "a field of view of half a degree");
-        bad.fov_y_deg = NAN;
-        expect_refused_pose(run, renderer, scene, &bad, "a field of view that is not a number");
+        expect_refused_pose(run, renderer, scene, &bad, "an orientation of length", 0.0);
+        for (int i = 0; i < 8 * 3; i++) {
+            bad = test_scene.pose;
+            double *number = i % 8 < 3   ? &bad.position_world[i % 8]
+                             : i % 8 < 7 ? &bad.orientation[i % 8 - 3]
+                                         : &bad.fov_y_deg;
+            *number = not_finite[i / 8];
+            expect_refused_pose(run, renderer, scene, &bad, "a number", *number);
+        }
+        for (size_t i = 0; i < sizeof fields_deg / sizeof *fields_deg; i++) {
+            bad = test_scene.pose;
+            bad.fov_y_deg = fields_deg[i];
+            expect_refused_pose(run, renderer, scene, &bad, "a field of view", bad.fov_y_deg);
+        }
     } else {
         stability_break(run, "%s", err.message);
     }
