@@ -195,6 +195,7 @@ static void scales_mirrors_and_shears_are_left_out(void **state) {
     (void)state;
     static const double bases[][3][3] = {
         {{4, 0, 0}, {0, 0.5, 0}, {0, 0, 1e-3}}, // scaled
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1e-29}},  // very flat
         {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},     // mirrored
         {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}},      // flat in x, which Y and Z make again
         {{1, 0, 0}, {0, 1, 5}, {0, 0, 2}},      // sheared
@@ -250,6 +251,7 @@ static void cameras_without_a_pose_are_skipped(void **state) {
     static const char *const nodes[] = {
         "{\"camera\":0,\"name\":\"eye\",\"scale\":[1,0,1]}", // Y is flat
         "{\"camera\":0,\"name\":\"eye\",\"scale\":[1,1,0]}", // Z is flat
+        "{\"camera\":0,\"name\":\"eye\",\"scale\":[1,1e-31,1]}",
         // Y is along Z, or against it.
         "{\"camera\":0,\"name\":\"eye\",\"matrix\":[1,0,0,0,0,0,2,0,0,0,1,0,0,0,0,1]}",
         "{\"camera\":0,\"name\":\"eye\",\"matrix\":[1,0,0,0,0,-3,-3,0,0,1,1,0,0,0,0,1]}",
