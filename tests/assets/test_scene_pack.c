@@ -3,11 +3,13 @@
 #include "assets/pack/scene_pack.h"
 #include "assets/pack/scene_pack_layout.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/motion.h"
 #include "tests/assets/fixture.h"
 #include "tests/assets/same_scene.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -226,6 +228,168 @@ static void arrays_do_not_overlap(void **state) {
     assert_false(accepts_textures(two, 2, true));
 }
 
+// --- motion --------------------------------------------------------------------------------------
+
+// Returns the pack of a model with a rig, skins, tracks, moving objects and moving meshes.
+static uint8_t *motion_pack(size_t *size_bytes) {
+    const DipModelOptions options = {.animation = DIP_MODEL_ANIMATION_FIRST};
+    DipModel *model = fixture_load(fixture_data("motion.gltf"), &options, NULL);
+    const DipScenePack pack = {.scene = *dip_model_scene_def(model)};
+    uint8_t *bytes = pack_bytes(&pack, size_bytes);
+    dip_model_destroy(&model);
+    return bytes;
+}
+
+static void a_pack_gives_back_the_motion(void **state) {
+    (void)state;
+    size_t size_bytes;
+    uint8_t *bytes = motion_pack(&size_bytes);
+    const DipModelOptions options = {.animation = DIP_MODEL_ANIMATION_FIRST};
+    DipModel *model = fixture_load(fixture_data("motion.gltf"), &options, NULL);
+    DipScenePack read;
+    DipError err = {0};
+    if (!dip_scene_pack_read(bytes, size_bytes, &read, &err)) {
+        fail_msg("%s", err.message);
+    }
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_same_scene(def, &read.scene);
+    const DipMotionDef *a = def->motion, *b = read.scene.motion;
+    assert_int_equal(a->rig_count, 1);
+    assert_int_equal(b->rig_count, 1);
+    const DipMotionRig *x = &a->rigs[0], *y = &b->rigs[0];
+    assert_string_equal(x->clip, y->clip);
+    assert_int_equal(x->rig.node_count, y->rig.node_count);
+    assert_int_equal(x->skin_count, y->skin_count);
+    assert_int_equal(x->track_count, y->track_count);
+    for (int i = 0; i < x->track_count; ++i) {
+        const DipTrack *m = &x->tracks[i], *n = &y->tracks[i];
+        assert_true(m->target == n->target && m->interpolation == n->interpolation);
+        assert_true(m->node == n->node && m->key_count == n->key_count);
+        assert_memory_equal(m->times, n->times, m->key_count * sizeof *m->times);
+        assert_memory_equal(m->values, n->values, dip_track_value_count(m) * sizeof *m->values);
+    }
+    for (int i = 0; i < x->skin_count; ++i) {
+        const DipRigSkin *m = &x->skins[i], *n = &y->skins[i];
+        assert_int_equal(m->joint_count, n->joint_count);
+        assert_memory_equal(m->nodes, n->nodes, (size_t)m->joint_count * sizeof *m->nodes);
+        assert_memory_equal(m->inverse_binds, n->inverse_binds,
+                            12 * (size_t)m->joint_count * sizeof *m->inverse_binds);
+    }
+    dip_scene_pack_free(&read);
+    dip_model_destroy(&model);
+    free(bytes);
+}
+
+// A number of 32 bits that replaces a field of a record.
+typedef struct MotionFault {
+    size_t section; // where the header has the section
+    size_t field;   // where the record has the field
+    uint32_t value;
+    const char *reason;
+} MotionFault;
+
+static void assert_fault(uint8_t *bytes, size_t size_bytes, size_t at, uint32_t value,
+                         const char *reason) {
+    uint32_t kept;
+    DipScenePack pack;
+    DipError err = {0};
+    memcpy(&kept, bytes + at, sizeof kept);
+    memcpy(bytes + at, &value, sizeof value);
+    if (dip_scene_pack_read(bytes, size_bytes, &pack, &err) || !strstr(err.message, reason)) {
+        fail_msg("\"%s\", expected %s", err.message, reason);
+    }
+    dip_scene_pack_free(&pack);
+    memcpy(bytes + at, &kept, sizeof kept);
+}
+
+// Each field has a number that is wrong by itself. The numbers of arrays are too large for the pack
+// where they are as large as is accepted, which gives another reason.
+static void wrong_records_of_motion_are_named(void **state) {
+    (void)state;
+    enum { MOST = PACK_MAX_RECORDS };
+#define SECTION(name) offsetof(PackHeader, name)
+    static const MotionFault faults[] = {
+        {SECTION(rigs), offsetof(PackRig, node_count), MOST, "counts of a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, skin_count), MOST, "counts of a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, track_count), MOST, "counts of a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, weight_count), MOST + 1, "counts of a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, weight_count), MOST, "a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, rest_weights), 0, "a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, is_held), 2, "a rig (item 0)"},
+        {SECTION(rigs), offsetof(PackRig, clip), MOST, "a rig (item 0)"},
+        {SECTION(nodes), offsetof(PackNode, has_matrix), 2, "a node (item 0)"},
+        {SECTION(skins), offsetof(PackSkin, joint_count), MOST + 1, "a skin (item 0)"},
+        {SECTION(skins), offsetof(PackSkin, nodes), 0, "a skin (item 0)"},
+        {SECTION(skins), offsetof(PackSkin, inverse_binds), 0, "a skin (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, target), DIP_TRACK_WEIGHTS + 1,
+         "kind of a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, interpolation), DIP_INTERPOLATION_CUBICSPLINE + 1,
+         "kind of a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, width), UINT32_MAX, "kind of a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, width), MOST + 1, "kind of a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, width), MOST, " a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, key_count), 0, "kind of a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, times), 0, " a track (item 0)"},
+        {SECTION(tracks), offsetof(PackTrack, values), 0, " a track (item 0)"},
+        {SECTION(moving_meshes), offsetof(PackMovingMesh, shape_count), 0,
+         "shapes of a moving mesh (item 0)"},
+        {SECTION(moving_meshes), offsetof(PackMovingMesh, shape_count), MOST + 1,
+         "shapes of a moving mesh (item 0)"},
+        {SECTION(moving_meshes), offsetof(PackMovingMesh, shape_count), MOST,
+         ": a moving mesh (item 0)"},
+        {SECTION(moving_meshes), offsetof(PackMovingMesh, positions), 0,
+         ": a moving mesh (item 0)"},
+    };
+#undef SECTION
+    size_t size_bytes;
+    uint8_t *bytes = motion_pack(&size_bytes);
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
+        PackSection section;
+        memcpy(&section, bytes + faults[i].section, sizeof section);
+        assert_true(section.count > 0);
+        assert_fault(bytes, size_bytes, section.offset + faults[i].field, faults[i].value,
+                     faults[i].reason);
+    }
+    PackHeader header; // One rig more would need another rig's nodes.
+    PackRig rig;
+    memcpy(&header, bytes, sizeof header);
+    memcpy(&rig, bytes + header.rigs.offset, sizeof rig);
+    assert_fault(bytes, size_bytes, header.rigs.offset + offsetof(PackRig, node_count),
+                 rig.node_count + 1, "counts of a rig (item 0)");
+    assert_fault(bytes, size_bytes, header.rigs.offset + offsetof(PackRig, skin_count),
+                 rig.skin_count + 1, "counts of a rig (item 0)");
+    assert_fault(bytes, size_bytes, header.rigs.offset + offsetof(PackRig, track_count),
+                 rig.track_count + 1, "counts of a rig (item 0)");
+    assert_fault(bytes, size_bytes, offsetof(PackHeader, rigs.count), 0, "motion without rigs");
+    assert_true(read_copy(bytes, size_bytes));
+    free(bytes);
+}
+
+// A pack has one failure. Here, the warning and the failure pass for two failures.
+static void several_failures_are_refused(void **state) {
+    (void)state;
+    DipScenePack written = {0};
+    DipError warning;
+    dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, "a.obj", 0, "wall", "one");
+    warning.severity = DIP_SEVERITY_WARNING;
+    dip_error_list_add(&written.warnings, &warning);
+    dip_error_set(&written.failure, DIP_ERROR_RANGE, "a.obj", 7, "roof", "two");
+    size_t size_bytes;
+    uint8_t *bytes = pack_bytes(&written, &size_bytes);
+    PackHeader header;
+    memcpy(&header, bytes, sizeof header);
+    assert_fault(bytes, size_bytes, offsetof(PackHeader, failures.count), UINT32_MAX,
+                 "section failures");
+    header.failures = (PackSection){.offset = header.warnings.offset, .count = 2};
+    header.warnings.count = 0;
+    memcpy(bytes, &header, sizeof header);
+    assert_fault(bytes, size_bytes, offsetof(PackHeader, failures.count), 2, "several failures");
+    dip_error_list_free(&written.warnings);
+    free(bytes);
+}
+
+// --- damage --------------------------------------------------------------------------------------
+
 // Collects numbers that sit on boundaries: of types, of limits, of this pack and of its sections.
 static int boundary_numbers(const uint8_t *bytes, size_t size_bytes, uint64_t *numbers) {
     static const uint64_t general[] = {
@@ -326,6 +490,9 @@ int main(void) {
         cmocka_unit_test(a_text_without_an_end_is_refused),
         cmocka_unit_test(textures_have_at_most_8192_texels_in_a_direction),
         cmocka_unit_test(arrays_do_not_overlap),
+        cmocka_unit_test(a_pack_gives_back_the_motion),
+        cmocka_unit_test(wrong_records_of_motion_are_named),
+        cmocka_unit_test(several_failures_are_refused),
         cmocka_unit_test(no_wrong_number_is_believed),
         cmocka_unit_test(no_damaged_pack_is_read_beyond_its_end),
     };
