@@ -64,6 +64,11 @@ static Placed evaluate(const DipAnimatedModel *model, DipAnimatedPose *pose, int
         3 * sizeof(float) * def->meshes[def->objects[object].mesh].vertex_count;
     Placed placed = {malloc(size_bytes), malloc(size_bytes)};
     dip_animated_pose_vertices(pose, object, placed.positions, placed.normals);
+    float *alone = malloc(size_bytes); // The positions are the same if no one asks for normals.
+    assert_non_null(alone);
+    dip_animated_pose_vertices(pose, object, alone, NULL);
+    assert_memory_equal(alone, placed.positions, size_bytes);
+    free(alone);
     return placed;
 }
 

@@ -266,6 +266,47 @@ static void malformed_meshes_are_refused(void **state) {
     check_faults(faults, sizeof faults / sizeof *faults);
 }
 
+// The list of a sparse accessor: how many values differ, which ones, and their new values.
+static void malformed_sparse_accessors_are_refused(void **state) {
+    (void)state;
+#define SPARSE(count, component, indices, values)                                                  \
+    "{'sparse':{'count':" count ",'indices':{'bufferView':" indices ",'componentType':" component  \
+    "},'values':{'bufferView':" values "}},'bufferView':0"
+    static const char from[] = "{'bufferView':0";
+    static const char whole[] = SPARSE("3", "5125", "4", "5");
+    static const char too_short[] = "the accessor of POSITION ends beyond its view of 24 bytes";
+    static const Fault faults[] = {
+        {from, SPARSE("4", "5125", "4", "5"), DIP_ERROR_FORMAT, "sparse",
+         "the sparse accessor of POSITION lists 4 of 3 values", BOTH, whole},
+        {from, SPARSE("0", "5125", "4", "5"), DIP_ERROR_FORMAT, "sparse",
+         "the sparse accessor of POSITION lists 0 of 3 values", BOTH,
+         SPARSE("1", "5125", "4", "5")},
+        {from, SPARSE("1.5", "5125", "4", "5"), DIP_ERROR_RANGE, "count", "this is not an integer",
+         BOTH, NULL},
+        {from, SPARSE("3", "'5125'", "4", "5"), DIP_ERROR_RANGE, "componentType",
+         "this is not an integer", BOTH, NULL},
+        {from, SPARSE("3", "5126", "4", "5"), DIP_ERROR_FORMAT, "sparse",
+         "or its indices are not unsigned integers", BOTH, SPARSE("3", "5123", "4", "5")},
+        {from, SPARSE("3", "5120", "4", "5"), DIP_ERROR_FORMAT, "sparse",
+         "or its indices are not unsigned integers", BOTH, SPARSE("3", "5121", "4", "5")},
+        {from, SPARSE("3", "5125", "6", "5"), DIP_ERROR_RANGE, "accessors",
+         "ends beyond its view of 8 bytes", BOTH, SPARSE("1", "5125", "6", "5")},
+        {from, SPARSE("3", "5125", "4", "7"), DIP_ERROR_RANGE, "accessors", too_short, BOTH,
+         SPARSE("2", "5125", "4", "7")},
+        {from, SPARSE("3", "5125", "8", "5"), DIP_ERROR_RANGE, "bufferViews",
+         "the file uses item 8 of 8", BOTH, NULL},
+    };
+    reset_binary();
+    put_u32(TIMES_AT + 4, 2); // The times pass for the indices 0 and 2 where two are read.
+    check(ANIMATED, write_changed(from, SPARSE("2", "5125", "6", "5")), "sparse", DIP_ERROR_NONE,
+          "", "");
+    put_u32(TIMES_AT + 4, 3);
+    check(ANIMATED, write_changed(from, SPARSE("2", "5125", "6", "5")), "sparse", DIP_ERROR_RANGE,
+          "sparse", "the sparse accessor of POSITION lists value 3 of 3");
+    check_faults(faults, sizeof faults / sizeof *faults);
+#undef SPARSE
+}
+
 static void malformed_morph_targets_are_refused(void **state) {
     (void)state;
     static const char part[] = "'targets':[{'POSITION':5}]}]";
@@ -446,17 +487,79 @@ static void poses_beyond_the_floats_are_refused(void **state) {
           "the position of vertex 1 in its pose is not finite");
 }
 
+// --- Draco ---------------------------------------------------------------------------------------
+
+#ifdef DIP_HAS_DRACO
+
+// Writes packed_draco.glb with `from` replaced by `to`, which must be as long.
+static const char *write_packed(const char *from, const char *to) {
+    size_t size_bytes = 0;
+    uint8_t *bytes = fixture_read(fixture_data("gltf/packed_draco.glb"), &size_bytes);
+    const size_t length = strlen(from);
+    size_t at = 0;
+    assert_int_equal(length, strlen(to));
+    while (at + length < size_bytes && memcmp(bytes + at, from, length) != 0) {
+        ++at;
+    }
+    assert_true(at + length < size_bytes);
+    memcpy(bytes + at, to, length);
+    fixture_write("packed.glb", bytes, size_bytes);
+    free(bytes);
+    return fixture_path("packed.glb");
+}
+
+// The file describes the content again that Draco has packed: 25 vertices whose attributes have the
+// numbers 0 positions, 1 normals, 2 texture coordinates and 3 colours.
+static void packed_meshes_are_as_the_file_describes_them(void **state) {
+    (void)state;
+    static const Fault faults[] = {
+        {"\"POSITION\":0", "\"POSITION\":9", DIP_ERROR_FORMAT, "KHR_draco_mesh_compression",
+         "the packed mesh \"mesh 0\" has no POSITION of this type", SCENE, "\"POSITION\":1"},
+        {"\"NORMAL\":1", "\"NORMAL\":2", DIP_ERROR_FORMAT, "KHR_draco_mesh_compression",
+         "the packed mesh \"mesh 0\" has no NORMAL of this type", SCENE, "\"NORMAL\":0"},
+        {"\"COLOR_0\":3", "\"COLOR_0\":1", DIP_ERROR_FORMAT, "KHR_draco_mesh_compression",
+         "the packed mesh \"mesh 0\" has no COLOR_0 of this type", SCENE, NULL},
+        {"\"NORMAL\":1", "\"NORMAL\":x", DIP_ERROR_FORMAT, "", "the JSON is malformed", SCENE,
+         NULL},
+        {"\"count\":25,\"max\"", "\"count\":24,\"max\"", DIP_ERROR_FORMAT,
+         "KHR_draco_mesh_compression", "the packed mesh \"mesh 0\" has 25 vertices, expected 24",
+         SCENE, "\"count\":25,\"max\""},
+        {"\"count\":25,\"max\"", "\"count\":26,\"max\"", DIP_ERROR_FORMAT,
+         "KHR_draco_mesh_compression", "the packed mesh \"mesh 0\" has 25 vertices, expected 26",
+         SCENE, NULL},
+        {"\"bufferView\":1,", "\"bufferView\":0,", DIP_ERROR_FORMAT, "KHR_draco_mesh_compression",
+         "the packed mesh \"mesh 0\" is malformed", SCENE, NULL},
+        {"\"bufferView\":1,", "\"bufferView\":2,", DIP_ERROR_RANGE, "bufferViews",
+         "the file uses item 2 of 2", SCENE, NULL},
+        {"\"POSITION\":0", "\"POSITION\":0", DIP_ERROR_UNSUPPORTED, "meshes",
+         "which animated models may not be", ANIMATED, NULL},
+    };
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
+        const Fault *f = &faults[i];
+        check(f->readers, write_packed(f->from, f->to), f->to, f->code, f->key, f->reason);
+        if (f->kept) {
+            check(f->readers, write_packed(f->from, f->kept), f->kept, DIP_ERROR_NONE, "", "");
+        }
+    }
+}
+
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(malformed_nodes_are_refused),
         cmocka_unit_test(malformed_skins_are_refused),
         cmocka_unit_test(malformed_meshes_are_refused),
+        cmocka_unit_test(malformed_sparse_accessors_are_refused),
         cmocka_unit_test(malformed_morph_targets_are_refused),
         cmocka_unit_test(malformed_materials_are_refused),
         cmocka_unit_test(numbers_that_cannot_be_used_are_refused),
         cmocka_unit_test(indices_and_joints_stay_within_their_lists),
         cmocka_unit_test(times_of_keys_ascend),
         cmocka_unit_test(poses_beyond_the_floats_are_refused),
+#ifdef DIP_HAS_DRACO
+        cmocka_unit_test(packed_meshes_are_as_the_file_describes_them),
+#endif
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);
 }

@@ -436,6 +436,10 @@ static void views_that_contradict_their_content_are_refused(void **state) {
             fail_msg("change %d", i);
         }
     }
+    pack_attributes(packed, values, 0, 8, "NONE"); // The specification wants one value or more.
+    assert_false(unpacks(packed));
+    pack_sequence(packed, indices, 0, 4);
+    assert_false(unpacks(packed));
     for (int i = 0; i < 4; ++i) { // A sequence whose bytes are too few, too many or another kind.
         pack_sequence(packed, indices, 3, 4);
         packed->size_bytes -= i == 1;

@@ -395,6 +395,39 @@ static void binary_files_are_drawn_alike(void **state) {
     }
 }
 
+// A string is followed by the token that ends it. The material after it must be found all the same:
+// the mesh names it, and it stands in a frame. In the string are the bytes of an opening brace.
+static void strings_of_binary_files_are_skipped(void **state) {
+    (void)state;
+    static const char picture[] = "a\012\0b.png";
+    const float values[11] = {1.0f, 1.0f, 0.0f, 1.0f};
+    for (uint32_t length = 1; length < sizeof picture; ++length) {
+        Bytes file = {.count = 0};
+        add(&file, "xof 0303bin 0032", 16);
+        add_name(&file, "Frame");
+        add_open(&file);
+        add_name(&file, "Material");
+        add_name(&file, "Other");
+        add_open(&file);
+        add_floats(&file, false, 11, values);
+        add_name(&file, "TextureFilename");
+        add_open(&file);
+        add_number(&file, 2, 2); // a string
+        add_number(&file, length, 4);
+        add(&file, picture, length);
+        add_number(&file, 0x14, 2); // semicolon
+        add_close(&file);
+        add_close(&file);
+        add_material(&file, false, "BlueM", 0.0f, 1.0f);
+        add_close(&file);
+        add_mesh(&file, false, 5.0f, "BlueM");
+        fixture_write("string.x", file.bytes, file.count);
+        DipModel *model = fixture_load(fixture_path("string.x"), &plain_options, NULL);
+        assert_blue(model, 5.0f);
+        dip_model_destroy(&model);
+    }
+}
+
 // The compressed file has one block, which is stored and not deflated.
 static void a_compressed_file_gives_a_warning(void **state) {
     (void)state;
@@ -468,6 +501,7 @@ int main(void) {
         cmocka_unit_test(an_error_names_its_line_of_the_file),
         cmocka_unit_test(a_file_without_references_is_read_as_it_is),
         cmocka_unit_test(binary_files_are_drawn_alike),
+        cmocka_unit_test(strings_of_binary_files_are_skipped),
         cmocka_unit_test(a_compressed_file_gives_a_warning),
         cmocka_unit_test(broken_files_are_searched_safely),
     };
