@@ -53,9 +53,10 @@ static void pack_attributes(Packed *packed, const void *values, int count, int s
                 put(packed, 0xff); // All groups have whole bytes.
             }
             for (int i = first; i < first + groups * GROUP; ++i) {
-                const int before = from[(size_t)(i > 0 ? i - 1 : 0) * (size_t)stride + (size_t)k];
-                const int value = i < end ? from[(size_t)i * (size_t)stride + (size_t)k] : before;
-                const int delta = i < end ? (int8_t)(uint8_t)(value - before) : 0;
+                const size_t at = (size_t)i * (size_t)stride + (size_t)k;
+                const int before = i > 0 && i < end ? from[at - (size_t)stride] : from[k];
+                const int value = i < end ? from[at] : before;
+                const int delta = (int8_t)(uint8_t)(value - before);
                 put(packed, (uint32_t)(delta < 0 ? -2 * delta - 1 : 2 * delta));
             }
         }
