@@ -399,6 +399,71 @@ static void a_camera_steps_on_the_key_of_its_time(void **state) {
     dip_model_cameras_destroy(&cameras);
 }
 
+// Writes a file whose node 0 has two animations along x, by "in" to 2 within a second and by "out"
+// to 8, and node 1 a third by 100. The JSON lists the nodes.
+static const char *write_animated_nodes(const char *nodes, const char *roots) {
+    static const float numbers[] = {0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0, 0, 100, 0, 0};
+    char text[2400];
+    fixture_write("three.bin", numbers, sizeof numbers);
+    const int length = snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"cameras\":[{\"perspective\":{\"yfov\":0.8}}],"
+        "\"nodes\":[%s],\"scenes\":[{\"nodes\":%s}],"
+        "\"buffers\":[{\"byteLength\":80,\"uri\":\"three.bin\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":8},"
+        "{\"buffer\":0,\"byteOffset\":8,\"byteLength\":72}],"
+        "\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"type\":\"SCALAR\",\"count\":2},"
+        "{\"bufferView\":1,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2},"
+        "{\"bufferView\":1,\"byteOffset\":24,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2},"
+        "{\"bufferView\":1,\"byteOffset\":48,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2}"
+        "],\"animations\":["
+        "{\"name\":\"in\",\"samplers\":[{\"input\":0,\"output\":1}],\"channels\":[{\"sampler\":0,"
+        "\"target\":{\"node\":0,\"path\":\"translation\"}}]},"
+        "{\"name\":\"out\",\"samplers\":[{\"input\":0,\"output\":2}],\"channels\":[{\"sampler\":0,"
+        "\"target\":{\"node\":0,\"path\":\"translation\"}}]},"
+        "{\"name\":\"other\",\"samplers\":[{\"input\":0,\"output\":3}],\"channels\":[{\"sampler\":"
+        "0,\"target\":{\"node\":1,\"path\":\"translation\"}}]}]}",
+        nodes, roots);
+    assert_true(length > 0 && (size_t)length < sizeof text);
+    fixture_write_text("three.gltf", text);
+    return fixture_path("three.gltf");
+}
+
+// A camera moves with the nodes above it, but not with those beside it. It has a path for each
+// animation that moves it, which has the animation's name if there are several.
+static void a_camera_moves_with_the_nodes_above_it(void **state) {
+    (void)state;
+    DipModelCameras *cameras =
+        load(write_animated_nodes("{\"children\":[2]},{\"camera\":0,\"name\":\"beside\"},"
+                                  "{\"children\":[3],\"translation\":[0,5,0],\"scale\":[2,2,2]},"
+                                  "{\"camera\":0,\"name\":\"below\",\"translation\":[0,0,1]},"
+                                  "{\"camera\":0,\"name\":\"still\",\"translation\":[7,0,0]}",
+                                  "[0,1,4]"));
+    static const struct {
+        const char *name;
+        double first[3], last[3];
+        size_t keys;
+    } expected[] = {{"beside", {0, 0, 0}, {100, 0, 0}, 121},
+                    {"below/in", {0, 5, 2}, {2, 5, 2}, 121},
+                    {"below/out", {0, 5, 2}, {8, 5, 2}, 121},
+                    {"still", {7, 0, 0}, {7, 0, 0}, 1}};
+    int count = 0;
+    const DipModelCamera *list = dip_model_cameras_list(cameras, &count);
+    assert_int_equal(count, 4);
+    for (int i = 0; i < count; ++i) {
+        assert_string_equal(list[i].name, expected[i].name);
+        assert_int_equal(list[i].key_count, expected[i].keys);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double first = list[i].keys[0][axis];
+            const double last = list[i].keys[list[i].key_count - 1][axis];
+            assert_true(fabs(first - expected[i].first[axis]) < 1e-9);
+            assert_true(fabs(last - expected[i].last[axis]) < 1e-9);
+        }
+    }
+    dip_model_cameras_destroy(&cameras);
+}
+
 // The longest animation has as many keys as a path may have, at the longest period. 3.6e9 is a
 // float; the next one is 256 more.
 static void animations_may_last_as_long_as_a_path(void **state) {
@@ -552,6 +617,7 @@ int main(void) {
         cmocka_unit_test(lenses_that_cannot_be_drawn_are_skipped),
         cmocka_unit_test(a_camera_moves_evenly_between_keys),
         cmocka_unit_test(a_camera_steps_on_the_key_of_its_time),
+        cmocka_unit_test(a_camera_moves_with_the_nodes_above_it),
         cmocka_unit_test(animations_may_last_as_long_as_a_path),
         cmocka_unit_test(glb_files_have_their_cameras_in_the_json),
         cmocka_unit_test(cameras_are_found_wherever_they_stand),

@@ -138,6 +138,44 @@ static void a_pack_gives_back_the_failure_and_the_warnings(void **state) {
     free(bytes);
 }
 
+// A note is believed if the header is one of this version and its numbers are in range.
+static void notes_are_read_back(void **state) {
+    (void)state;
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    DipImportStage stage;
+    int index;
+    assert_false(dip_scene_pack_read_note(fileno(file), &stage, &index)); // The file is empty.
+    assert_true(dip_scene_pack_note(fileno(file), DIP_IMPORT_PICTURES, DIP_MAX_MODEL_FILES - 1));
+    assert_true(dip_scene_pack_read_note(fileno(file), &stage, &index));
+    assert_int_equal(stage, DIP_IMPORT_PICTURES);
+    assert_int_equal(index, DIP_MAX_MODEL_FILES - 1);
+    const struct {
+        size_t field;
+        uint32_t value;
+        bool ok;
+    } cases[] = {
+        {offsetof(PackHeader, stage), DIP_IMPORT_DONE, true},
+        {offsetof(PackHeader, stage), DIP_IMPORT_DONE + 1, false},
+        {offsetof(PackHeader, file_index), DIP_MAX_MODEL_FILES, false},
+        {offsetof(PackHeader, version), PACK_VERSION + 1, false},
+        {offsetof(PackHeader, version), PACK_VERSION - 1, false},
+        {offsetof(PackHeader, header_bytes), sizeof(PackHeader) - 8, false},
+        {offsetof(PackHeader, magic), 0, false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        uint32_t kept;
+        const off_t at = (off_t)cases[i].field;
+        assert_int_equal(pread(fileno(file), &kept, 4, at), 4);
+        assert_int_equal(pwrite(fileno(file), &cases[i].value, 4, at), 4);
+        if (dip_scene_pack_read_note(fileno(file), &stage, &index) != cases[i].ok) {
+            fail_msg("case %zu", i);
+        }
+        assert_int_equal(pwrite(fileno(file), &kept, 4, at), 4);
+    }
+    fclose(file);
+}
+
 // Reads a copy of exactly this size, so that a memory checker notices every read outside of it.
 static bool read_copy(const uint8_t *bytes, size_t size_bytes) {
     uint8_t *copy = malloc(size_bytes + (size_bytes == 0));
@@ -485,6 +523,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pack_gives_back_the_scene),
         cmocka_unit_test(a_pack_gives_back_the_failure_and_the_warnings),
+        cmocka_unit_test(notes_are_read_back),
         cmocka_unit_test(every_truncated_pack_is_refused),
         cmocka_unit_test(a_lengthened_pack_is_refused),
         cmocka_unit_test(a_text_without_an_end_is_refused),
