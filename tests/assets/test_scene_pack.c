@@ -176,6 +176,19 @@ static void notes_are_read_back(void **state) {
     fclose(file);
 }
 
+// Poses a scene at some moments, if it moves, and reads all of it at each.
+static void read_motion(const DipSceneDef *scene) {
+    if (!scene->motion) {
+        return;
+    }
+    DipPosedDef *posed = dip_posed_def_create(scene, NULL);
+    for (int i = 0; posed && i < 3; ++i) {
+        dip_posed_def_set_share(posed, i * 0.4);
+        read_whole_scene(dip_posed_def(posed));
+    }
+    dip_posed_def_destroy(&posed);
+}
+
 // Reads a copy of exactly this size, so that a memory checker notices every read outside of it.
 static bool read_copy(const uint8_t *bytes, size_t size_bytes) {
     uint8_t *copy = malloc(size_bytes + (size_bytes == 0));
@@ -186,6 +199,7 @@ static bool read_copy(const uint8_t *bytes, size_t size_bytes) {
     const bool accepted = dip_scene_pack_read(copy, size_bytes, &pack, &err);
     if (accepted) {
         read_whole_scene(&pack.scene);
+        read_motion(&pack.scene);
     } else {
         assert_true(err.code == DIP_ERROR_FORMAT || err.code == DIP_ERROR_MEMORY);
         assert_non_null(strstr(err.message, "the importer's result is malformed"));
@@ -430,10 +444,24 @@ static void several_failures_are_refused(void **state) {
 
 // Collects numbers that sit on boundaries: of types, of limits, of this pack and of its sections.
 static int boundary_numbers(const uint8_t *bytes, size_t size_bytes, uint64_t *numbers) {
-    static const uint64_t general[] = {
-        0,          1,          2,          3,          64,
-        8192,       8193,       0x7fffffff, 0x80000000, 0xffffffff,
-        0x7f800000, 0x7fc00000, 0xff800000, UINT64_MAX, UINT64_MAX / 2};
+    static const uint64_t general[] = {0,
+                                       1,
+                                       2,
+                                       3,
+                                       64,
+                                       8192,
+                                       8193,
+                                       0x7fffffff,
+                                       0x80000000,
+                                       0xffffffff,
+                                       0x7f800000,
+                                       0x7fc00000,
+                                       0xff800000,
+                                       UINT64_MAX,
+                                       UINT64_MAX / 2,
+                                       0x7ff0000000000000,
+                                       0x7ff8000000000000,
+                                       0x7fe0000000000000}; // doubles
     PackHeader header;
     memcpy(&header, bytes, sizeof header);
     const uint64_t own[] = {size_bytes,          header.text.count,     header.text.offset,
@@ -452,11 +480,8 @@ static int boundary_numbers(const uint8_t *bytes, size_t size_bytes, uint64_t *n
 
 enum { MOST_NUMBERS = 64 };
 
-// Puts every boundary number at every place of the pack.
-static void no_wrong_number_is_believed(void **state) {
-    (void)state;
-    size_t size_bytes;
-    uint8_t *bytes = full_pack(&size_bytes);
+// Puts every boundary number at every place of the pack, and frees it.
+static void try_wrong_numbers(uint8_t *bytes, size_t size_bytes) {
     uint64_t numbers[MOST_NUMBERS];
     const int count = boundary_numbers(bytes, size_bytes, numbers);
     int refused = 0;
@@ -472,6 +497,15 @@ static void no_wrong_number_is_believed(void **state) {
     assert_true(refused > 1000);
     assert_true(read_copy(bytes, size_bytes));
     free(bytes);
+}
+
+static void no_wrong_number_is_believed(void **state) {
+    (void)state;
+    size_t size_bytes;
+    uint8_t *bytes = full_pack(&size_bytes);
+    try_wrong_numbers(bytes, size_bytes);
+    bytes = motion_pack(&size_bytes);
+    try_wrong_numbers(bytes, size_bytes);
 }
 
 // xorshift64*, so that every machine tries the same changes.
