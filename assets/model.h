@@ -209,8 +209,8 @@ typedef struct DipNameList {
     int left_out; // Number of names that did not fit.
 } DipNameList;
 
-// Adds the first 70 bytes of a name on one line, unless the list has it. A name that does not fit is
-// counted.
+// Adds the first 70 bytes of a name on one line, unless the list has it. A name that does not fit
+// is counted.
 DIP_API void dip_name_list_add(DipNameList *list, const char *name);
 
 // Ends the text with the number of names that did not fit, and returns the text.
