@@ -125,8 +125,7 @@ static void read_alpha(DipModel *model, const DipModelFile *file, const struct a
     if (masked) {
         const float cutoff = float_property(material, AI_MATKEY_GLTF_ALPHACUTOFF, default_cutoff);
         plan->invisible = base_alpha < cutoff;
-        const float scaled = base_alpha > 0.0f ? cutoff / base_alpha : 1.0f;
-        def->alpha_cutoff = fminf(fmaxf(scaled, 0.0f), 1.0f);
+        def->alpha_cutoff = cutoff > 0.0f ? fminf(fmaxf(cutoff / base_alpha, 0.0f), 1.0f) : 0.0f;
     } else if (blended) {
         dip_model_warn(
             model, file->path, def->name,

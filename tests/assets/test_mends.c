@@ -149,6 +149,148 @@ static void one_line_says_that_no_mtl_is_named(void **state) {
     dip_model_destroy(&model);
 }
 
+// --- glTF ----------------------------------------------------------------------------------------
+
+// Writes a glTF file of one triangle for each material. The materials are JSON. The texture 0 is
+// the picture, whose texels have hard edges.
+static const char *gltf_with(const char *materials, int count, const char *picture) {
+    static const float numbers[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1};
+    char text[4000];
+    int at = snprintf(text, sizeof text,
+                      "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":60,"
+                      "\"uri\":\"numbers.bin\"}],\"bufferViews\":[{\"buffer\":0,"
+                      "\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":24}],"
+                      "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+                      "\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
+                      "\"type\":\"VEC2\"}],\"images\":[{\"uri\":\"%s\"}],"
+                      "\"samplers\":[{\"magFilter\":9728}],"
+                      "\"textures\":[{\"source\":0,\"sampler\":0}],\"materials\":[%s],"
+                      "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"name\":\"all\"}],"
+                      "\"meshes\":[{\"primitives\":[",
+                      picture, materials);
+    for (int i = 0; i < count; ++i) {
+        at += snprintf(text + at, sizeof text - (size_t)at,
+                       "%s{\"material\":%d,\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1}}",
+                       i ? "," : "", i);
+    }
+    snprintf(text + at, sizeof text - (size_t)at, "]}]}");
+    fixture_write("numbers.bin", numbers, sizeof numbers);
+    fixture_write_text("made.gltf", text);
+    return fixture_path("made.gltf");
+}
+
+// A texel is drawn if the base alpha times its own alpha reaches the cutoff.
+static void a_mask_compares_the_base_alpha_with_the_cutoff(void **state) {
+    (void)state;
+    static const struct {
+        const char *base_alpha, *cutoff;
+        float expected; // cutoff of the texels, or -1 for no surface
+    } cases[] = {{"0.5", "0.25", 0.5f}, {"0.25", "0.25", 1.0f}, {"0.2499", "0.25", -1.0f},
+                 {"1", "1", 1.0f},      {"1", "1.0001", -1.0f}, {"0", "0.25", -1.0f},
+                 {"0.5", "0", 0.0f},    {"0", "0", 0.0f}};
+    enum { CASES = sizeof cases / sizeof *cases };
+    char materials[2000] = "";
+    for (int i = 0; i < CASES; ++i) {
+        const size_t at = strlen(materials);
+        snprintf(materials + at, sizeof materials - at,
+                 "%s{\"name\":\"m%d\",\"alphaMode\":\"MASK\",\"alphaCutoff\":%s,"
+                 "\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,%s],"
+                 "\"baseColorTexture\":{\"index\":0}}}",
+                 i ? "," : "", i, cases[i].cutoff, cases[i].base_alpha);
+    }
+    fixture_write("colour.png", fixture_png, sizeof fixture_png); // One texel has the alpha 0.
+    DipModel *model = load(gltf_with(materials, CASES, "colour.png"), NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    int drawn = 0;
+    for (int i = 0; i < CASES; ++i) {
+        float found = -1.0f;
+        for (int k = 0; k < def->object_count; ++k) {
+            const DipMaterialDef *material =
+                &def->materials[def->meshes[def->objects[k].mesh].material];
+            if (material->name[1] == '0' + i) {
+                assert_int_equal(material->surface, DIP_SURFACE_CLIPPED);
+                found = material->alpha_cutoff;
+            }
+        }
+        if (found != cases[i].expected) {
+            fail_msg("alpha %s, cutoff %s: %g", cases[i].base_alpha, cases[i].cutoff,
+                     (double)found);
+        }
+        drawn += cases[i].expected >= 0.0f;
+    }
+    assert_int_equal(def->object_count, drawn);
+    dip_model_destroy(&model);
+}
+
+// The texels of a picture with hard edges become blocks of 8x8 texels, but of fewer where a row or
+// column would have more than 1024 texels.
+static void hard_texels_become_blocks(void **state) {
+    (void)state;
+    static const struct {
+        int side, factor;
+    } cases[] = {{1, 8}, {128, 8}, {129, 4}, {256, 4}, {257, 2}, {512, 2}, {513, 1}};
+    static const char material[] =
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}";
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; ++i) {
+        const int side = cases[i / 2].side;
+        const int factor = cases[i / 2].factor;
+        uint8_t bytes[64 + 3 * 513];
+        const bool wide = i % 2 == 0;
+        const int head =
+            snprintf((char *)bytes, 64, "P6\n%d %d\n255\n", wide ? side : 1, wide ? 1 : side);
+        for (int k = 0; k < 3 * side; ++k) {
+            bytes[head + k] = (uint8_t)(k / 3);
+        }
+        fixture_write("hard.ppm", bytes, (size_t)head + 3 * (size_t)side);
+        DipErrorList warnings = {0};
+        DipModel *model = load(gltf_with(material, 1, "hard.ppm"), &warnings);
+        const DipTextureDef *texture = &dip_model_scene_def(model)->textures[0];
+        assert_int_equal(texture->width, factor * (wide ? side : 1));
+        assert_int_equal(texture->height, factor * (wide ? 1 : side));
+        for (int y = 0; y < texture->height; ++y) {
+            for (int x = 0; x < texture->width; ++x) {
+                assert_int_equal(texture->rgba8[4 * (y * texture->width + x)],
+                                 (uint8_t)((wide ? x : y) / factor));
+            }
+        }
+        assert_int_equal(warnings.count, factor == 1);
+        if (factor == 1) {
+            assert_string_equal(warnings.items[0].key, "magFilter");
+            assert_non_null(strstr(warnings.items[0].message, "larger than 512x512"));
+        }
+        dip_error_list_free(&warnings);
+        dip_model_destroy(&model);
+    }
+}
+
+// Files of glTF 1 are read by assimp. Their colours are linear, and a surface without a roughness
+// has 0.6: a = 0.36, n = 2 / a^2 - 2, and a dielectric mirrors 0.04 (n + 8) / 8.
+static void colours_of_gltf_1_are_linear(void **state) {
+    (void)state;
+    static const float numbers[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    fixture_write("one.bin", numbers, sizeof numbers);
+    DipModel *model = load_text(
+        "one.gltf",
+        "{\"asset\":{\"version\":\"1.0\"},\"scene\":\"s\",\"scenes\":{\"s\":{\"nodes\":[\"n\"]}},"
+        "\"nodes\":{\"n\":{\"meshes\":[\"m\"]}},\"buffers\":{\"b\":{\"byteLength\":36,"
+        "\"type\":\"arraybuffer\",\"uri\":\"one.bin\"}},\"bufferViews\":{\"v\":{\"buffer\":\"b\","
+        "\"byteOffset\":0,\"byteLength\":36}},\"accessors\":{\"a\":{\"bufferView\":\"v\","
+        "\"byteOffset\":0,\"byteStride\":12,\"componentType\":5126,\"count\":3,"
+        "\"type\":\"VEC3\"}},\"materials\":{\"w\":{\"values\":{\"diffuse\":[0.5,0.25,0.75,1]}}},"
+        "\"meshes\":{\"m\":{\"primitives\":[{\"attributes\":{\"POSITION\":\"a\"},"
+        "\"material\":\"w\",\"mode\":4}]}}}");
+    const DipMaterialDef *material = &dip_model_scene_def(model)->materials[0];
+    assert_true(material->base_colour_lin[0] == 0.5f && material->base_colour_lin[1] == 0.25f &&
+                material->base_colour_lin[2] == 0.75f);
+    const double exponent = 2.0 / (0.36 * 0.36) - 2.0;
+    assert_true(fabs((double)material->shininess - exponent) < 1e-4);
+    for (int c = 0; c < 3; ++c) {
+        assert_true(fabs((double)material->specular_lin[c] - 0.04 * (exponent + 8.0) / 8.0) < 1e-6);
+    }
+    assert_false(material->double_sided);
+    dip_model_destroy(&model);
+}
+
 // --- texture coordinates -------------------------------------------------------------------------
 
 // An NFF file's sphere has no texture coordinates; the reader asks for a mapping around it.
@@ -372,6 +514,9 @@ int main(void) {
         cmocka_unit_test(a_skin_may_be_called_like_its_model),
         cmocka_unit_test(a_constant_opacity_blends),
         cmocka_unit_test(one_line_says_that_no_mtl_is_named),
+        cmocka_unit_test(a_mask_compares_the_base_alpha_with_the_cutoff),
+        cmocka_unit_test(hard_texels_become_blocks),
+        cmocka_unit_test(colours_of_gltf_1_are_linear),
         cmocka_unit_test(generated_texture_coordinates_are_kept),
         cmocka_unit_test(normals_of_length_zero_are_made),
         cmocka_unit_test(vertices_without_a_colour_are_not_black),
