@@ -65,7 +65,7 @@ static bool out_of_memory(DipError *err) {
 bool dip_truth_default_folder(char *folder, size_t size_bytes) {
     const char *cache = getenv("XDG_CACHE_HOME");
     const char *home = getenv("HOME");
-    const bool has_cache = cache && *cache;
+    const bool has_cache = cache && *cache == '/'; // The specification ignores a relative path.
     if (!has_cache && !(home && *home)) {
         return false;
     }

@@ -120,8 +120,8 @@ DIP_API double dip_truth_floor_rmse(const DipMetricSums *floor, int region);
 DIP_API bool dip_truth_hides(const DipMetricSums *floor, const DipMetricSums *sums);
 
 // Writes the name of the default cache folder: $XDG_CACHE_HOME/diptych, or $HOME/.cache/diptych if
-// XDG_CACHE_HOME is not set or empty. Does not create the folder. Returns false if neither variable
-// is set or if the name does not fit.
+// XDG_CACHE_HOME is not set or not an absolute path. Does not create the folder. Returns false if
+// neither variable gives a folder or if the name does not fit.
 DIP_API bool dip_truth_default_folder(char *folder, size_t size_bytes);
 
 #ifdef __cplusplus

@@ -17,6 +17,7 @@
 
 #include <cmocka.h>
 
+#include <limits.h>
 #include <math.h>
 
 enum { WIDTH = 48, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
@@ -339,6 +340,61 @@ static void a_truth_compared_with_itself_has_no_error(void **state) {
     dip_truth_free(&truth);
 }
 
+// The XDG Base Directory Specification: without XDG_CACHE_HOME, or if it is empty, caches lie in
+// $HOME/.cache; a path that is not absolute is ignored.
+static void the_default_folder_follows_the_environment(void **state) {
+    (void)state;
+    static const struct {
+        const char *cache, *home, *expected;
+    } cases[] = {
+        {"/var/c", "/home/a", "/var/c/diptych"},
+        {"/var/c", NULL, "/var/c/diptych"},
+        {NULL, "/home/a", "/home/a/.cache/diptych"},
+        {"", "/home/a", "/home/a/.cache/diptych"},
+        {"c/d", "/home/a", "/home/a/.cache/diptych"},
+        {"c/d", NULL, NULL},
+        {NULL, NULL, NULL},
+        {"", "", NULL},
+    };
+    const char *given[2] = {getenv("XDG_CACHE_HOME"), getenv("HOME")};
+    char *kept[2] = {given[0] ? strdup(given[0]) : NULL, given[1] ? strdup(given[1]) : NULL};
+    static const char *const names[2] = {"XDG_CACHE_HOME", "HOME"};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *const values[2] = {cases[i].cache, cases[i].home};
+        for (int v = 0; v < 2; v++) {
+            assert_int_equal(values[v] ? setenv(names[v], values[v], 1) : unsetenv(names[v]), 0);
+        }
+        char folder[64] = "";
+        const bool found = dip_truth_default_folder(folder, sizeof folder);
+        if (found != (cases[i].expected != NULL)) {
+            fail_msg("case %zu: %s", i, folder);
+        }
+        if (found) {
+            assert_string_equal(folder, cases[i].expected);
+            const size_t size = strlen(folder) + 1;
+            assert_true(dip_truth_default_folder(folder, size));
+            assert_false(dip_truth_default_folder(folder, size - 1));
+        }
+    }
+    for (int v = 0; v < 2; v++) {
+        assert_int_equal(kept[v] ? setenv(names[v], kept[v], 1) : unsetenv(names[v]), 0);
+        free(kept[v]);
+    }
+}
+
+static void a_cache_whose_name_is_too_long_is_refused(void **state) {
+    (void)state;
+    static char cache[PATH_MAX + 1];
+    const DipTruthDef def = make_def(16);
+    DipTruth truth;
+    DipError err = {0};
+    memset(cache, 'c', PATH_MAX);
+    assert_false(dip_truth_get(&truth, &def, cache, pool, NULL, NULL, &err));
+    assert_int_equal(err.code, DIP_ERROR_OVERSIZED);
+    assert_string_equal(err.key, "--cache");
+    assert_string_equal(err.message, "the name is too long");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_cache_returns_the_truth_that_was_drawn),
@@ -350,6 +406,8 @@ int main(void) {
         cmocka_unit_test(a_live_truth_does_without_the_cache),
         cmocka_unit_test(light_is_kept_in_floats_and_in_bytes),
         cmocka_unit_test(a_truth_compared_with_itself_has_no_error),
+        cmocka_unit_test(the_default_folder_follows_the_environment),
+        cmocka_unit_test(a_cache_whose_name_is_too_long_is_refused),
     };
     char folder[] = "/tmp/test_truth.XXXXXX";
     DipError err = {0};
