@@ -155,7 +155,7 @@ void dip_config_describe(DipConfigKey key, char *buffer, size_t size_bytes) {
         );
         break;
     case DIP_TYPE_NAME:
-        snprintf(buffer, size_bytes, "a name of at most %d letters", DIP_CONFIG_MAX_NAME - 1);
+        snprintf(buffer, size_bytes, "a name of at most %d bytes", DIP_CONFIG_MAX_NAME - 1);
         break;
     case DIP_TYPE_MATERIALS:
         snprintf(buffer, size_bytes, "a name with * and ?, up to %d times",

@@ -161,7 +161,7 @@ static bool set_settings(DipConfigKey key, const char *text, DipQuality *quality
 static bool set_name(DipConfigKey key, const char *text, DipConfigName *name, DipError *err) {
     if (strlen(text) >= sizeof name->text) {
         return dip_error_set(err, DIP_ERROR_OVERSIZED, NULL, 0, dip_config_key_name(key),
-                             "'%.40s...' is too long, accepted at most %d letters", text,
+                             "'%.40s...' is too long, accepted at most %d bytes", text,
                              DIP_CONFIG_MAX_NAME - 1);
     }
     strcpy(name->text, text);

@@ -223,6 +223,120 @@ static void malformed_headers_are_refused(void **state) {
     }
 }
 
+// Versions 0 and 3 of PCX have no palette in the file. Versions 2, 4 and 5 do; version 1 is none.
+// Pixels of one bit need no palette. The picture has two pixels, with the numbers 1 and 0.
+static void pcx_files_without_a_palette_are_refused(void **state) {
+    (void)state;
+    static const uint8_t palette[6] = {10, 20, 30, 40, 50, 60};
+    for (int version = 0; version <= 6; ++version) {
+        for (int bits = 1; bits <= 4; bits *= 2) {
+            uint8_t bytes[130] = {10, (uint8_t)version, 1, (uint8_t)bits, 0, 0, 0, 0, 1};
+            memcpy(bytes + 16, palette, sizeof palette);
+            bytes[65] = 1; // plane
+            bytes[66] = 2; // bytes of a line
+            bytes[128] = (uint8_t)(1 << (8 - bits));
+            const bool known = version <= 5 && version != 1;
+            const bool has_palette = version == 2 || version >= 4 || bits == 1;
+            DipPicture picture;
+            DipError err = {0};
+            if (dip_picture_decode(bytes, sizeof bytes, "version", &picture, &err) !=
+                (known && has_palette)) {
+                fail_msg("version %d, %d bits: %s", version, bits, err.message);
+            }
+            if (known && has_palette) {
+                assert_int_equal(picture.rgba8[0], bits == 1 ? 255 : 40);
+                assert_int_equal(picture.rgba8[4], bits == 1 ? 0 : 10);
+            } else if (known) {
+                char message[100];
+                snprintf(message, sizeof message,
+                         "the PCX file of version %d has no palette, accepted versions 2, 4 and 5",
+                         version);
+                assert_int_equal(err.code, DIP_ERROR_UNSUPPORTED);
+                assert_string_equal(err.message, message);
+            }
+            dip_picture_free(&picture);
+        }
+    }
+}
+
+#ifdef DIP_HAS_WEBP
+// A lossless picture of one texel, as the specification of WebP builds it: the signature 0x2f, 14
+// bits each of width - 1 and height - 1, a bit of alpha, 3 bits of version, then no transform, no
+// colour cache, no meta codes, and five simple codes of one symbol each (green, red, blue, alpha,
+// distance), which take no further bits.
+static size_t make_webp(uint8_t bytes[64]) {
+    static const struct {
+        uint8_t value, bits;
+    } fields[] = {
+        {0, 8}, {0, 6}, {0, 8}, {0, 6},  {1, 1}, {0, 3}, // 1 x 1, with alpha, version 0
+        {0, 1}, {0, 1}, {0, 1},                          // no transform, cache or meta codes
+        {1, 1}, {0, 1}, {1, 1}, {20, 8},                 // green: simple, one symbol of 8 bits
+        {1, 1}, {0, 1}, {1, 1}, {10, 8},                 // red
+        {1, 1}, {0, 1}, {1, 1}, {30, 8},                 // blue
+        {1, 1}, {0, 1}, {1, 1}, {40, 8},                 // alpha
+        {1, 1}, {0, 1}, {0, 1}, {0, 1},                  // distance: one symbol of 1 bit
+    };
+    memset(bytes, 0, 64);
+    memcpy(bytes, "RIFF----WEBPVP8L----\x2f", 21);
+    size_t bit = 8 * 21;
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; ++i) {
+        for (int k = 0; k < fields[i].bits; ++k, ++bit) {
+            bytes[bit / 8] = (uint8_t)(bytes[bit / 8] | (fields[i].value >> k & 1) << bit % 8);
+        }
+    }
+    const uint32_t chunk = (uint32_t)((bit + 7) / 8 - 20);
+    const uint32_t padded = chunk + chunk % 2;
+    const uint32_t riff = 12 + padded;
+    memcpy(bytes + 4, &riff, 4); // little-endian, as the files
+    memcpy(bytes + 16, &chunk, 4);
+    return 20 + padded;
+}
+
+static void a_webp_is_read_and_its_cuts_are_refused(void **state) {
+    (void)state;
+    uint8_t bytes[64];
+    const size_t size_bytes = make_webp(bytes);
+    DipPicture picture;
+    DipError err = {0};
+    if (!dip_picture_decode(bytes, size_bytes, "one.webp", &picture, &err)) {
+        fail_msg("%s", err.message);
+    }
+    static const uint8_t texel[4] = {10, 20, 30, 40};
+    assert_int_equal(picture.width, 1);
+    assert_int_equal(picture.height, 1);
+    assert_true(picture.has_alpha);
+    assert_memory_equal(picture.rgba8, texel, 4);
+    dip_picture_free(&picture);
+    uint32_t chunk;
+    memcpy(&chunk, bytes + 16, 4);
+    for (size_t cut = 12; cut < 20 + chunk; ++cut) { // A shorter file is not known as WebP.
+        assert_refused("cut.webp", bytes, cut, DIP_ERROR_TRUNCATED, "ends too early");
+    }
+    bytes[24] |= 0xe0; // another version
+    assert_refused("version.webp", bytes, size_bytes, DIP_ERROR_FORMAT,
+                   "malformed or an animation");
+    make_webp(bytes);
+    bytes[20] = 0x2e; // another signature
+    assert_refused("mark.webp", bytes, size_bytes, DIP_ERROR_FORMAT, "malformed or an animation");
+    make_webp(bytes);
+    bytes[21] = 0xff;
+    bytes[22] |= 0x3f; // 16384 texels wide
+    assert_refused("wide.webp", bytes, size_bytes, DIP_ERROR_RANGE, "16384 x 1");
+}
+
+// The chunk VP8X has flags (2: animation, 16: alpha), then width - 1 and height - 1 in 24 bits
+// each.
+static void an_animated_webp_is_refused(void **state) {
+    (void)state;
+    uint8_t bytes[96] = {0};
+    static const uint8_t head[] = "RIFF\x24\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x03\0\0\x03\0\0"
+                                  "ANIM\x06\0\0\0\0\0\0\0\0\0";
+    memcpy(bytes, head, sizeof head - 1);
+    assert_refused("moving.webp", bytes, sizeof head - 1, DIP_ERROR_FORMAT,
+                   "the WebP picture is malformed or an animation");
+}
+#endif
+
 static void malformed_texts_are_refused(void **state) {
     (void)state;
     static const struct {
@@ -431,6 +545,13 @@ static void an_environment_keeps_the_light(void **state) {
     free(environment);
     assert_null(dip_environment_decode(bytes, size_bytes - 1, "sky.hdr", &err));
     assert_int_equal(err.code, DIP_ERROR_TRUNCATED);
+    // Lines of 16 pixels may be packed, into 4 bytes and at least two bytes for each component.
+    enum { LEAST = ENV_HEIGHT * (4 + 4 * 2) };
+    for (size_t size = (size_t)header; size < (size_t)header + LEAST; ++size) {
+        assert_null(dip_environment_decode(bytes, size, "sky.hdr", &err));
+        assert_int_equal(err.code, DIP_ERROR_TRUNCATED);
+        assert_string_equal(err.file, "sky.hdr");
+    }
     bytes[header - 8] = '9'; // 9 rows of 16
     assert_null(dip_environment_decode(bytes, size_bytes, "sky.hdr", &err));
     assert_int_equal(err.code, DIP_ERROR_RANGE);
@@ -490,6 +611,11 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_pcx_that_ends_before_its_bits_is_no_pcx),
         cmocka_unit_test(dds_formats_are_known_by_their_numbers),
         cmocka_unit_test(malformed_headers_are_refused),
+        cmocka_unit_test(pcx_files_without_a_palette_are_refused),
+#ifdef DIP_HAS_WEBP
+        cmocka_unit_test(a_webp_is_read_and_its_cuts_are_refused),
+        cmocka_unit_test(an_animated_webp_is_refused),
+#endif
         cmocka_unit_test(malformed_texts_are_refused),
         cmocka_unit_test(malformed_runs_of_an_hdr_are_refused),
         cmocka_unit_test(colours_between_those_of_a_block_are_the_nearest),

@@ -331,6 +331,63 @@ static void there_are_at_most_64_lights(void **context) {
     remove("many_lights.ini");
 }
 
+static void there_are_at_most_32_names_of_each_kind_of_material(void **context) {
+    (void)context;
+    static char text[8192] = SHORT;
+    DipConfig config;
+    DipErrorList faults;
+    for (int i = 0; i < DIP_CONFIG_MAX_MATERIALS; i++) {
+        strcat(text, "MATERIAL_LIGHTMAP: Wall = wall.png\nMATERIAL_SKY: Sky *\n");
+    }
+    load_text("names.ini", text, &config, &faults);
+    assert_int_equal(faults.count, 0);
+    assert_int_equal(config.material_lightmap.count, 32);
+    assert_int_equal(config.material_sky.count, 32);
+    dip_config_free(&config);
+    FILE *stream = fopen("names.ini", "wb");
+    assert_non_null(stream);
+    fprintf(stream, "%sMATERIAL_LIGHTMAP: Wall = wall.png\n", text);
+    fclose(stream);
+    assert_false(dip_config_load("names.ini", &config, &faults));
+    assert_int_equal(faults.count, 1);
+    check_fault(&faults, 0, DIP_ERROR_OVERSIZED, DIP_SEVERITY_ERROR, 17 + 64 + 1,
+                "MATERIAL_LIGHTMAP", "is given more than 32 times, accepted up to 32 names");
+    dip_error_list_free(&faults);
+    remove("names.ini");
+}
+
+// A letter may take more than one byte, and the limit is one of bytes.
+static void a_name_has_at_most_63_bytes(void **context) {
+    (void)context;
+    static const char *const letters[] = {"a", "\xc3\xa9"};
+    for (int i = 0; i < 2; i++) {
+        char name[80] = "x";
+        char text[4096];
+        DipConfig config;
+        DipErrorList faults;
+        while (strlen(name) < 63) {
+            strcat(name, letters[i]);
+        }
+        assert_int_equal(strlen(name), 63);
+        snprintf(text, sizeof text, SHORT "ANIMATION: %s\n", name);
+        load_text("name.ini", text, &config, &faults);
+        assert_int_equal(faults.count, 0);
+        assert_string_equal(config.animation.text, name);
+        dip_config_free(&config);
+        FILE *stream = fopen("name.ini", "wb");
+        assert_non_null(stream);
+        fprintf(stream, SHORT "ANIMATION: %sb\n", name);
+        fclose(stream);
+        assert_false(dip_config_load("name.ini", &config, &faults));
+        assert_int_equal(faults.count, 1);
+        char said[100];
+        snprintf(said, sizeof said, "'%.40s...' is too long, accepted at most 63 bytes", name);
+        check_fault(&faults, 0, DIP_ERROR_OVERSIZED, DIP_SEVERITY_ERROR, 18, "ANIMATION", said);
+        dip_error_list_free(&faults);
+        remove("name.ini");
+    }
+}
+
 static void comments_and_white_space_are_ignored(void **context) {
     (void)context;
     DipConfig config;
@@ -430,6 +487,8 @@ int main(void) {
         cmocka_unit_test(materials_keep_their_names_and_light_maps),
         cmocka_unit_test(lights_are_read),
         cmocka_unit_test(there_are_at_most_64_lights),
+        cmocka_unit_test(there_are_at_most_32_names_of_each_kind_of_material),
+        cmocka_unit_test(a_name_has_at_most_63_bytes),
         cmocka_unit_test(comments_and_white_space_are_ignored),
         cmocka_unit_test(two_names_of_one_file_are_recognised),
         cmocka_unit_test(the_documentation_has_a_row_for_every_key),

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -37,7 +38,8 @@ static DipChild *start(const char *command, DipError *err) {
 static DipChild *start_greeting(const char *command) {
     char text[1024];
     DipError err;
-    snprintf(text, sizeof text, "test \"$0\" = --serve && echo diptych-bench 1 3 5; %s", command);
+    snprintf(text, sizeof text, "test \"$0\" = --serve || exit; echo diptych-bench 1 3 5; %s",
+             command);
     DipChild *child = start(text, &err);
     if (!child) {
         fail_msg("%s", err.message);
@@ -153,7 +155,8 @@ static void an_answer_without_a_time_is_refused(void **state) {
 // Writing to a child that has ended does not end this process.
 static void a_child_that_ends_is_told(void **state) {
     (void)state;
-    DipChild *child = start_greeting("read request; echo total_ms=1; exec >&-; read request");
+    signal(SIGPIPE, SIG_DFL);
+    DipChild *child = start_greeting("read request; echo total_ms=1; exec <&-; exec >&-");
     DipBenchSample sample;
     DipTimed timed = {0};
     DipError err = {0};
