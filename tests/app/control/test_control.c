@@ -37,7 +37,7 @@ static DipControl *control;
 static LineClient client;
 static LineClient other;
 
-// Refuses paths of the category "NONE" and carries out everything else.
+// Refuses paths of the categories "NONE" and "FILE" and carries out everything else.
 static DipControlAnswer carry_out(void *context, const DipControlRequest *request, int attempt,
                                   cJSON *reply, DipError *err) {
     (void)context;
@@ -49,6 +49,11 @@ static DipControlAnswer carry_out(void *context, const DipControlRequest *reques
     if (request->verb == DIP_CONTROL_PATH && strcmp(request->category, "NONE") == 0) {
         ++seen.refused;
         dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "category", "'\xff NONE' is refused");
+        return DIP_CONTROL_REFUSED;
+    }
+    if (request->verb == DIP_CONTROL_PATH && strcmp(request->category, "FILE") == 0) {
+        ++seen.refused;
+        dip_error_set(err, DIP_ERROR_MISSING, "a\xff.pth", 0, "category", "cannot be opened");
         return DIP_CONTROL_REFUSED;
     }
     ++seen.count;
@@ -144,6 +149,9 @@ static void refusals_of_the_target_are_errors_in_utf8(void **state) {
     assert_string_equal(ask("{\"id\":5,\"request\":\"path\",\"category\":\"NONE\"}"),
                         "{\"id\":5,\"ok\":false,\"error\":{\"code\":\"UNKNOWN\",\"field\":"
                         "\"category\",\"message\":\"'? NONE' is refused\"}}");
+    assert_string_equal(ask("{\"id\":6,\"request\":\"path\",\"category\":\"FILE\"}"),
+                        "{\"id\":6,\"ok\":false,\"error\":{\"code\":\"MISSING\",\"field\":"
+                        "\"category\",\"message\":\"cannot be opened\",\"file\":\"a?.pth\"}}");
 }
 
 static void lines_may_arrive_in_pieces(void **state) {

@@ -218,6 +218,24 @@ static void a_change_keeps_the_other_settings(void **state) {
     assert_memory_equal(&quality, &expected, sizeof quality);
 }
 
+// A change of the greatest length is parsed; one that does not fit beside the other settings is
+// refused. A text of commas is parsed and refused for another reason.
+static void a_change_has_a_greatest_length(void **state) {
+    (void)state;
+    static char change[2 * DIP_CONTROL_TEXT_SIZE];
+    DipQuality quality;
+    DipError fault = {0};
+    assert_true(dip_quality_parse("aa=4", &quality, NULL));
+    memset(change, ',', DIP_CONTROL_TEXT_SIZE - 1);
+    assert_false(dip_control_change_settings(&quality, change, &quality, &fault));
+    assert_int_not_equal(fault.code, DIP_ERROR_OVERSIZED);
+    memset(change, ',', sizeof change - 1);
+    assert_false(dip_control_change_settings(&quality, change, &quality, &fault));
+    assert_int_equal(fault.code, DIP_ERROR_OVERSIZED);
+    assert_string_equal(fault.key, "change");
+    assert_string_equal(fault.message, "is a text of 1023 bytes, accepted at most 511");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_arrive_in_the_request),
@@ -226,6 +244,7 @@ int main(void) {
         cmocka_unit_test(lengths_and_depths_are_limited),
         cmocka_unit_test(a_zero_byte_is_refused),
         cmocka_unit_test(a_change_keeps_the_other_settings),
+        cmocka_unit_test(a_change_has_a_greatest_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

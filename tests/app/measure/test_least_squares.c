@@ -135,6 +135,27 @@ static void terms_that_cannot_be_told_apart_share_a_price(void **state) {
     assert_true(prices[2] == 0.0);
 }
 
+// The third term is a quarter of the first two but for a millionth, which counts as the same: its
+// price stays 0, although a little of the error is left for it. The fourth term, whose slope is
+// flatter, still gets its price.
+static void a_term_that_nearly_depends_on_others_costs_nothing(void **state) {
+    (void)state;
+    const double amounts[4][4] = {
+        {1, 0, 0.25, 0}, {0, 1, 0.25, 0}, {0, 0, 1e-6, 0}, {0, 0, 0, 1e-7}};
+    const double scale[4] = {1, 1, 1, 1};
+    const double expected[4] = {1, 1, 0, 1e7};
+    DipNormalEquations equations;
+    double prices[4];
+    dip_normal_equations_begin(&equations, 4, scale);
+    for (int r = 0; r < 4; r++) {
+        dip_normal_equations_add(&equations, amounts[r], 1.0, 1.0);
+    }
+    dip_least_squares_nonnegative(&equations, prices);
+    for (int t = 0; t < 4; t++) {
+        assert_true(fabs(prices[t] - expected[t]) <= 1e-9 * expected[t]);
+    }
+}
+
 // Determinant of the information matrix of some rows, by elimination in a wider type.
 static long double information(const Problem *problem, const int *chosen, int count, int terms) {
     long double m[TERMS][TERMS] = {{0}};
@@ -190,6 +211,7 @@ int main(void) {
         cmocka_unit_test(random_problems_end_at_the_least_sum),
         cmocka_unit_test(a_row_taken_away_leaves_the_equations_of_the_others),
         cmocka_unit_test(terms_that_cannot_be_told_apart_share_a_price),
+        cmocka_unit_test(a_term_that_nearly_depends_on_others_costs_nothing),
         cmocka_unit_test(a_design_tells_more_than_random_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
