@@ -339,13 +339,13 @@ static bool finish(DipModel *model, DipError *err) {
     model->def.objects = model->objects;
     memcpy(model->def.background_lin, background_lin, sizeof background_lin);
     model->def.sky = dip_sky_default();
-    model->warnings = NULL;
     DipModelBounds bounds;
     if (!dip_model_finish_motion(model) || !dip_model_bounds(model, &bounds)) {
         return dip_model_out_of_memory(err, model->file_count > 0 ? model->files[0].path : NULL);
     }
     model->def.near_m = dip_model_near_distance(&bounds);
     dip_model_scale_lights(model, &bounds);
+    model->warnings = NULL;
     return true;
 }
 

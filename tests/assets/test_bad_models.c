@@ -1,6 +1,6 @@
 // Tests broken and hostile model files. Each file must be refused. The error must have the file's
 // name, a reason and the right code.
-#include "assets/model.h"
+#include "assets/model_parts.h"
 #include "tests/assets/fixture.h"
 
 #include <setjmp.h>
@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <cmocka.h>
 
 typedef struct BadFile {
@@ -121,6 +123,113 @@ static void a_cut_glb_file_is_refused(void **state) {
     assert_refused(fixture_path("short.glb"), DIP_ERROR_TRUNCATED, "too early");
     fixture_write("cut.glb", header, sizeof header);
     assert_refused(fixture_path("cut.glb"), DIP_ERROR_TRUNCATED, "too early");
+}
+
+// --- glTF 1, which assimp reads ------------------------------------------------------------------
+
+// A triangle of glTF 1. Its JSON has three arrays. `more` follows the last member.
+static const char *gltf_1(const char *more) {
+    static const float numbers[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static char text[4000];
+    fixture_write("one.bin", numbers, sizeof numbers);
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"1.0\"},\"scene\":\"s\",\"scenes\":{\"s\":{\"nodes\":"
+             "[\"n\"]}},\"nodes\":{\"n\":{\"meshes\":[\"m\"]}},\"buffers\":{\"b\":{\"byteLength\":"
+             "36,\"type\":\"arraybuffer\",\"uri\":\"one.bin\"}},\"bufferViews\":{\"v\":{"
+             "\"buffer\":\"b\",\"byteOffset\":0,\"byteLength\":36}},\"accessors\":{\"a\":{"
+             "\"bufferView\":\"v\",\"byteOffset\":0,\"byteStride\":12,\"componentType\":5126,"
+             "\"count\":3,\"type\":\"VEC3\"}},\"meshes\":{\"m\":{\"primitives\":[{\"attributes\":{"
+             "\"POSITION\":\"a\"},\"mode\":4}]}}%s}",
+             more);
+    return text;
+}
+
+static void assert_loads(const char *path) {
+    DipModel *model = fixture_load(path, NULL, NULL);
+    assert_int_equal(dip_model_scene_def(model)->object_count, 1);
+    dip_model_destroy(&model);
+}
+
+// Brackets in strings do not count, also behind a quotation mark that is escaped.
+static void gltf_1_has_at_most_400000_arrays(void **state) {
+    (void)state;
+    enum { MOST = 400000, OWN = 3 };
+    const char *text = gltf_1(",\"texts\":\"[\\\"[\\\\\",\"more\":[");
+    const size_t begin_bytes = strlen(text) - 1;
+    char *file = malloc(begin_bytes + 3 * MOST + 10);
+    memcpy(file, text, begin_bytes);
+    for (int over = 0; over < 2; ++over) {
+        size_t at = begin_bytes;
+        for (int i = OWN + 1; i < MOST + over; ++i) {
+            memcpy(file + at, "[],", 3);
+            at += 3;
+        }
+        memcpy(file + at - 1, "]}", 2); // instead of the last comma
+        fixture_write("arrays.gltf", file, at + 1);
+        if (over) {
+            assert_refused(fixture_path("arrays.gltf"), DIP_ERROR_RANGE,
+                           "JSON is nested 6 deep and has 400001 arrays, accepted 512 and 400000");
+        } else {
+            assert_loads(fixture_path("arrays.gltf"));
+        }
+    }
+    free(file);
+}
+
+// Writes a binary file of glTF 1. It begins with the version, its own length, the length of the
+// JSON and the kind 0.
+static const char *write_glb_1(const char *text, uint32_t claimed, size_t size_bytes) {
+    uint8_t bytes[4000];
+    const uint32_t length = (uint32_t)strlen(text);
+    const uint32_t header[5] = {0x46546c67, 1, 20 + length, claimed, 0};
+    assert_true(size_bytes <= sizeof bytes);
+    memcpy(bytes, header, 20); // little-endian, as the file
+    memcpy(bytes + 20, text, length);
+    fixture_write("one.glb", bytes, size_bytes);
+    return fixture_path("one.glb");
+}
+
+// A file of less than 12 bytes is not known to be binary.
+static void a_cut_glb_file_of_gltf_1_is_refused(void **state) {
+    (void)state;
+    const char *text = gltf_1("");
+    const uint32_t length = (uint32_t)strlen(text);
+    assert_loads(write_glb_1(text, length, 20 + length));
+    assert_refused(write_glb_1(text, length + 1, 20 + length), DIP_ERROR_TRUNCATED,
+                   "the model file ends too early");
+    for (size_t cut = 12; cut < 20 + length; ++cut) {
+        assert_refused(write_glb_1(text, length, cut), DIP_ERROR_TRUNCATED,
+                       "the model file ends too early");
+    }
+}
+
+// One array within another, besides the object around them.
+static void a_glb_file_of_gltf_1_nests_at_most_512_deep(void **state) {
+    (void)state;
+    for (int over = 0; over < 2; ++over) {
+        char more[1100] = ",\"deep\":";
+        const size_t at = strlen(more);
+        const size_t arrays = (size_t)(511 + over);
+        memset(more + at, '[', arrays);
+        memset(more + at + arrays, ']', arrays);
+        const char *text = gltf_1(more);
+        const char *path = write_glb_1(text, (uint32_t)strlen(text), 20 + strlen(text));
+        if (over) {
+            assert_refused(path, DIP_ERROR_RANGE,
+                           "JSON is nested 513 deep and has 515 arrays, accepted 512 and 400000");
+        } else {
+            assert_true(dip_model_precheck(path, NULL)); // assimp has limits of its own.
+        }
+    }
+}
+
+// To open a named pipe would wait for a program that writes to it.
+static void a_named_pipe_is_refused(void **state) {
+    (void)state;
+    assert_int_equal(mkfifo(fixture_path("pipe.obj"), 0600), 0);
+    assert_refused(fixture_path("pipe.obj"), DIP_ERROR_IO, "the model is not a regular file");
+    assert_int_equal(symlink("/dev/null", fixture_path("null.obj")), 0);
+    assert_refused(fixture_path("null.obj"), DIP_ERROR_IO, "the model is not a regular file");
 }
 
 static void impossible_counts_in_off_files_are_refused(void **state) {
@@ -273,6 +382,10 @@ int main(void) {
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(deep_nesting_is_refused),
         cmocka_unit_test(a_cut_glb_file_is_refused),
+        cmocka_unit_test(gltf_1_has_at_most_400000_arrays),
+        cmocka_unit_test(a_cut_glb_file_of_gltf_1_is_refused),
+        cmocka_unit_test(a_glb_file_of_gltf_1_nests_at_most_512_deep),
+        cmocka_unit_test(a_named_pipe_is_refused),
         cmocka_unit_test(impossible_counts_in_off_files_are_refused),
         cmocka_unit_test(required_extensions_that_cannot_be_decoded_are_refused),
         cmocka_unit_test(other_mentions_of_extensions_are_ignored),

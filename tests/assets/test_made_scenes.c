@@ -516,6 +516,37 @@ static void lights_that_cannot_be_drawn_are_told(void **state) {
     }
 }
 
+// A point light beyond the greatest strength fades less instead; light from far away cannot.
+static void a_light_that_becomes_too_strong_is_left_out(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; ++i) {
+        const DipModelOptions options = {.has_light_scale = true,
+                                         .light_scale = i == 0 ? 1.0 : 2.0};
+        const bool point = i == 2;
+        MadeScene *made = made_scene(1);
+        struct aiLight light = {.mType = point ? aiLightSource_POINT : aiLightSource_DIRECTIONAL,
+                                .mDirection = {0.0f, -1.0f, 0.0f},
+                                .mAttenuationConstant = 1.0f};
+        made_string(&light.mName, "lamp");
+        light.mColorDiffuse = (struct aiColor3D){DIP_MAX_LIGHT_LIN, 0.0f, 0.0f};
+        made->lights[0] = &light;
+        made->scene.mNumLights = 1;
+        DipModel *model = load_with(made, &options);
+        const DipLightingDef *lighting = dip_model_scene_def(model)->lighting;
+        if (i == 1) {
+            assert_one_warning("lamp", "the light is left out: it is too strong");
+            assert_null(lighting);
+        } else {
+            assert_int_equal(warnings.count, 0);
+            const double red = lighting->lights[0].colour_lin[0];
+            const double strength = point ? red / lighting->lights[0].attenuation[0] : red;
+            const double expected = options.light_scale * (double)DIP_MAX_LIGHT_LIN;
+            assert_true(fabs(strength - expected) <= 1e-6 * expected);
+        }
+        dip_model_destroy(&model);
+    }
+}
+
 // --- scenes that are refused ---------------------------------------------------------------------
 
 static void a_transform_must_stay_finite(void **state) {
@@ -562,6 +593,7 @@ int main(void) {
         cmocka_unit_test(percent_escapes_in_names_are_decoded),
         cmocka_unit_test(a_light_ends_at_the_range_of_its_node),
         cmocka_unit_test(lights_that_cannot_be_drawn_are_told),
+        cmocka_unit_test(a_light_that_becomes_too_strong_is_left_out),
         cmocka_unit_test(a_transform_must_stay_finite),
         cmocka_unit_test(a_mesh_must_have_what_it_claims),
     };

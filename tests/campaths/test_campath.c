@@ -549,6 +549,28 @@ static void the_orbit_begins_in_front_and_turns_over_plus_x(void **context) {
     dip_campath_destroy(&path);
 }
 
+// A model of a single point is framed as a box of one metre about it.
+static void the_orbit_of_a_point_is_that_of_a_box_of_one_metre(void **context) {
+    (void)context;
+    DipCamOrbitDef point = dip_campath_default_orbit();
+    DipCamOrbitDef box = point;
+    for (int i = 0; i < 3; i++) {
+        point.min_world[i] = point.max_world[i] = 2.0 * i;
+        box.min_world[i] = 2.0 * i - 0.5;
+        box.max_world[i] = 2.0 * i + 0.5;
+    }
+    DipCamPath *paths[2];
+    assert_true(dip_campath_orbit(&point, &paths[0], NULL));
+    assert_true(dip_campath_orbit(&box, &paths[1], NULL));
+    for (int t = 0; t < 20; t++) {
+        const DipPose a = sample(paths[0], t * SECOND);
+        const DipPose b = sample(paths[1], t * SECOND);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    dip_campath_destroy(&paths[0]);
+    dip_campath_destroy(&paths[1]);
+}
+
 static void bad_orbits_and_keys_are_refused(void **context) {
     (void)context;
     DipCamPath *path;
@@ -752,6 +774,7 @@ int main(void) {
         cmocka_unit_test(the_orbit_shows_the_whole_box),
         cmocka_unit_test(the_orbit_shows_the_whole_silhouette),
         cmocka_unit_test(the_orbit_begins_in_front_and_turns_over_plus_x),
+        cmocka_unit_test(the_orbit_of_a_point_is_that_of_a_box_of_one_metre),
         cmocka_unit_test(bad_orbits_and_keys_are_refused),
         cmocka_unit_test(orbits_accept_their_ranges_and_no_more),
         cmocka_unit_test(poses_have_the_same_bits_on_every_machine),
