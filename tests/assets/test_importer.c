@@ -87,6 +87,8 @@ static int misbehave(const char *how, int count, char **arguments) {
         end_by(SIGSEGV);
     } else if (strcmp(how, "abort") == 0) {
         end_by(SIGABRT);
+    } else if (strcmp(how, "user-signal") == 0) {
+        end_by(SIGUSR1);
     } else if (strcmp(how, "hang") == 0) {
         dip_scene_pack_note(PACK_FILE, DIP_IMPORT_PICTURES, 0);
         pause();
@@ -163,6 +165,10 @@ static void an_importer_that_crashes_fails_the_load(void **state) {
                  "the importer crashed while it read the model (SIGSEGV)");
     const DipImporter abort_ = importer_that("abort");
     assert_fails(&abort_, path, DIP_ERROR_RUNTIME, "(SIGABRT)");
+    char number[32]; // A signal that is no usual end has no name.
+    snprintf(number, sizeof number, "(signal %d)", SIGUSR1);
+    const DipImporter user = importer_that("user-signal");
+    assert_fails(&user, path, DIP_ERROR_RUNTIME, number);
     const DipImporter leaves = importer_that("exit");
     assert_fails(&leaves, path, DIP_ERROR_RUNTIME, "exit code 7 and without a result");
     const DipImporter nothing = importer_that("nothing");

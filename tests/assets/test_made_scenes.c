@@ -571,6 +571,9 @@ static void a_mesh_must_have_what_it_claims(void **state) {
     made->meshes[0].mPrimitiveTypes = aiPrimitiveType_POLYGON;
     assert_refused(made, NULL, DIP_ERROR_FORMAT, made_path(), 0, "", "the mesh lacks its polygons");
     made = made_scene(1);
+    made->scene.mFlags = AI_SCENE_FLAGS_INCOMPLETE;
+    assert_refused(made, NULL, DIP_ERROR_FORMAT, made_path(), 0, "", "the file has no scene");
+    made = made_scene(1);
     made->root.mNumMeshes = 0;
     made->scene.mNumMeshes = 0;
     made->nodes[0].mNumMeshes = 0;
