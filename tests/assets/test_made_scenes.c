@@ -367,6 +367,61 @@ static void a_rule_may_mean_the_models_own_light_map(void **state) {
     dip_model_destroy(&model);
 }
 
+// A rule outranks the metadata of the nodes, and a later rule an earlier one. A light map and a
+// kind of surface do not exclude each other.
+static void rules_mark_surfaces(void **state) {
+    (void)state;
+    static struct aiString water;
+    MadeScene *made = made_scene(7);
+    made_string(&water, "water");
+    made_metadata(made, MADE_ROOT, "surface", AI_AISTRING, &water);
+    fixture_write("colour.png", fixture_png, sizeof fixture_png); // One texel has the alpha 0.
+    fixture_write_tga("light.tga", 2, 2, 100);
+    for (int i = 0; i < 7; ++i) {
+        made_texture(made, i, aiTextureType_DIFFUSE, "colour.png");
+    }
+    char light[FIXTURE_PATH];
+    snprintf(light, sizeof light, "%s", fixture_path("light.tga"));
+    const DipMaterialRule rules[] = {
+        {.mark = DIP_MARK_SOLID, .pattern = "material0"},
+        {.mark = DIP_MARK_CLIP, .pattern = "material1"},
+        {.mark = DIP_MARK_SKY, .pattern = "material2"},
+        {.mark = DIP_MARK_WATER, .pattern = "*2"},
+        {.mark = DIP_MARK_GLASS, .pattern = "material3"},
+        {.mark = DIP_MARK_WATER, .pattern = "material4"},
+        {.mark = DIP_MARK_SKY, .pattern = "material[4]"}, // Brackets have no meaning.
+        {.mark = DIP_MARK_SKY, .pattern = "material4"},
+        {.mark = DIP_MARK_LIGHT_MAP, .pattern = "material5", .light_map = light},
+        {.mark = DIP_MARK_SOLID, .pattern = "m*5"},
+    };
+    const DipMaterialRule *bad = &rules[6];
+    char message[200];
+    snprintf(message, sizeof message,
+             "'%s' fits no material of the models, accepted \"material0\", \"material1\", "
+             "\"material2\", \"material3\", \"material4\", \"material5\", \"material6\"",
+             bad->pattern);
+    const DipModelOptions refused = {.rules = bad, .rule_count = 1};
+    assert_refused(made, &refused, DIP_ERROR_UNKNOWN, "", 0, "", message);
+    DipMaterialRule good[9];
+    memcpy(good, rules, 6 * sizeof *rules);
+    memcpy(good + 6, rules + 7, 3 * sizeof *rules);
+    const DipModelOptions options = {.rules = good, .rule_count = 9};
+    DipModel *model = load_with(made, &options);
+    static const DipSurface expected[7] = {
+        DIP_SURFACE_OPAQUE, DIP_SURFACE_CLIPPED, DIP_SURFACE_WATER, DIP_SURFACE_OPAQUE,
+        DIP_SURFACE_SKY,    DIP_SURFACE_OPAQUE,  DIP_SURFACE_WATER};
+    for (int i = 0; i < 7; ++i) {
+        char node[16];
+        snprintf(node, sizeof node, "node%d", i);
+        const DipMaterialDef *material = material_of(model, node);
+        assert_int_equal(material->surface, expected[i]);
+        assert_int_equal(material->light_map >= 0, i == 5);
+        assert_int_equal(material->lit, i < 2); // A surface with a light map has its light already.
+    }
+    assert_int_equal(warnings.count, 0);
+    dip_model_destroy(&model);
+}
+
 // --- embedded pictures ---------------------------------------------------------------------------
 
 // Loads a triangle with a texture of this path, and returns the texture, or NULL if a warning says
@@ -592,6 +647,7 @@ int main(void) {
         cmocka_unit_test(a_rule_gives_a_light_map),
         cmocka_unit_test(a_light_map_of_a_rule_must_be_readable),
         cmocka_unit_test(a_rule_may_mean_the_models_own_light_map),
+        cmocka_unit_test(rules_mark_surfaces),
         cmocka_unit_test(embedded_pictures_are_found_by_number),
         cmocka_unit_test(percent_escapes_in_names_are_decoded),
         cmocka_unit_test(a_light_ends_at_the_range_of_its_node),
