@@ -112,6 +112,10 @@ static float read_base_colour(const DipModelFile *file, const struct aiMaterial 
     return colour.a;
 }
 
+float dip_texel_cutoff(float cutoff, float base_alpha) {
+    return cutoff > 0.0f ? fminf(fmaxf(cutoff / base_alpha, 0.0f), 1.0f) : 0.0f;
+}
+
 // Decides whether the surface is alpha-clipped and at which alpha. base_alpha multiplies the alpha
 // of every texel.
 static void read_alpha(DipModel *model, const DipModelFile *file, const struct aiMaterial *material,
@@ -125,7 +129,7 @@ static void read_alpha(DipModel *model, const DipModelFile *file, const struct a
     if (masked) {
         const float cutoff = float_property(material, AI_MATKEY_GLTF_ALPHACUTOFF, default_cutoff);
         plan->invisible = base_alpha < cutoff;
-        def->alpha_cutoff = cutoff > 0.0f ? fminf(fmaxf(cutoff / base_alpha, 0.0f), 1.0f) : 0.0f;
+        def->alpha_cutoff = dip_texel_cutoff(cutoff, base_alpha);
     } else if (blended) {
         dip_model_warn(
             model, file->path, def->name,

@@ -206,6 +206,10 @@ char *dip_model_copy_text(DipModel *model, const char *text);
 // model.c: replaces control characters by spaces, because messages must stay on one line.
 void dip_make_one_line(char *text);
 
+// material.c: returns the least alpha that a texel needs, so that the base alpha times its alpha
+// reaches the cutoff of a glTF material. 1 is the most, also where no texel reaches the cutoff.
+float dip_texel_cutoff(float cutoff, float base_alpha);
+
 // Adds a warning with the code UNSUPPORTED, unless the caller wants no warnings. key may be NULL.
 void dip_model_warn(DipModel *model, const char *file, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

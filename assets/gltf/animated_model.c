@@ -77,7 +77,8 @@ static bool read_texture(DipGltfReader *reader, int index, int *texture) {
 // Decides whether the surface is clipped.
 static void set_alpha(DipGltfReader *reader, const DipGltfMaterial *from,
                       DipMaterialDef *material) {
-    const double alpha = from->base[3];
+    const float alpha = (float)from->base[3];
+    const float cutoff = (float)from->cutoff;
     const int texture = material->colour_texture;
     if (from->alpha == DIP_GLTF_OPAQUE) {
         return;
@@ -85,8 +86,14 @@ static void set_alpha(DipGltfReader *reader, const DipGltfMaterial *from,
     if (from->alpha == DIP_GLTF_BLEND) {
         dip_model_warn(reader->model->store, reader->model->path, material->name,
                        "blending is not kept: the surface is clipped at an alpha of 0.5");
-    } else if (alpha > 0.0) {
-        material->alpha_cutoff = (float)fmin(fmax(from->cutoff / alpha, 0.0), 1.0);
+    } else {
+        material->alpha_cutoff = dip_texel_cutoff(cutoff, alpha);
+        if (alpha < cutoff) {
+            dip_model_warn(reader->model->store, reader->model->path, material->name,
+                           "the surface is drawn, although its base alpha of %g is below its "
+                           "cutoff of %g",
+                           (double)alpha, (double)cutoff);
+        }
     }
     if (texture >= 0 && reader->model->pictures[texture].has_alpha) {
         material->surface = DIP_SURFACE_CLIPPED;

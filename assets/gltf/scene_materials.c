@@ -252,7 +252,7 @@ static void read_surface(Maker *maker) {
     if (from->alpha == DIP_GLTF_MASK) {
         const float cutoff = (float)from->cutoff;
         maker->plan.invisible = alpha < cutoff;
-        def->alpha_cutoff = cutoff > 0.0f ? fminf(fmaxf(cutoff / alpha, 0.0f), 1.0f) : 0.0f;
+        def->alpha_cutoff = dip_texel_cutoff(cutoff, alpha);
     }
     if (from->alpha == DIP_GLTF_MASK || maker->plan.tag == DIP_TAG_MASK) {
         def->surface = DIP_SURFACE_CLIPPED;

@@ -411,6 +411,10 @@ static void blended_surfaces_of_animated_models_are_clipped(void **state) {
         {"'BLEND'", blending, DIP_SURFACE_CLIPPED, 0.5f},
         {"'MASK'", NULL, DIP_SURFACE_CLIPPED, 1.0f}, // 0.5 of the factor 0.5
         {"'MASK','alphaCutoff':0.125", NULL, DIP_SURFACE_CLIPPED, 0.25f},
+        {"'MASK','alphaCutoff':0", NULL, DIP_SURFACE_CLIPPED, 0.0f},
+        {"'MASK','alphaCutoff':0.75",
+         "the surface is drawn, although its base alpha of 0.5 is below its cutoff of 0.75",
+         DIP_SURFACE_CLIPPED, 1.0f},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         DipErrorList warnings = {0};
