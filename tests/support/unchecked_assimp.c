@@ -21,6 +21,9 @@ UNCHECKED(const void *, aiImportFileFromMemory,
           (const char *bytes, unsigned size_bytes, unsigned flags, const char *format),
           (bytes, size_bytes, flags, format))
 UNCHECKED(const void *, aiApplyPostProcessing, (const void *scene, unsigned flags), (scene, flags))
+UNCHECKED(int, aiExportScene,
+          (const void *scene, const char *format, const char *file, unsigned flags),
+          (scene, format, file, flags))
 
 enum { STRING_BYTES = 1028 }; // Size of assimp's struct aiString.
 
