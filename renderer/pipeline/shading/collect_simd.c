@@ -249,21 +249,27 @@ VEC_INLINE void push_multi_fragment(const SubBlock *sub, unsigned multi_fragment
     }
 }
 
-// Gives a pixel, y * DIP_TILE + x, the background's colour.
-static inline void clear_pixel(const DipTileShading *shading, int pixel) {
+// Gives `count` pixels of a row, from column x, the background's colour.
+static inline void clear_row(const DipTileShading *shading, int x, int y, int count) {
     if (shading->light16) {
         const int32_t *light = shading->clear_linear16;
-        dip_store_light16(shading, (uint32_t)pixel, light[0], light[1], light[2]);
-    } else {
-        shading->pixels[(size_t)(pixel / DIP_TILE) * shading->stride + (size_t)(pixel % DIP_TILE)] =
-            shading->clear_rgba8;
+        for (int i = 0; i < count; i++) {
+            dip_store_light16(shading, (uint32_t)(y * DIP_TILE + x + i), light[0], light[1],
+                              light[2]);
+        }
+        return;
+    }
+    const uint32_t rgba8 = shading->clear_rgba8;
+    uint32_t *pixels = shading->pixels + (size_t)y * shading->stride + (size_t)x;
+    for (int i = 0; i < count; i++) {
+        pixels[i] = rgba8;
     }
 }
 
 static void clear_pixels(const SubBlock *sub, unsigned left) {
     for (; left; left &= left - 1) {
-        clear_pixel(sub->shading,
-                    sub->y0 * DIP_TILE + sub->x0 + pixel_position[__builtin_ctz(left)]);
+        const int position = pixel_position[__builtin_ctz(left)];
+        clear_row(sub->shading, sub->x0 + position % DIP_TILE, sub->y0 + position / DIP_TILE, 1);
     }
 }
 
@@ -445,10 +451,9 @@ static void collect_sub_block(SubBlock *sub, bool grouped) {
 static void clear_block(DipTileShading *shading, int block) {
     const int x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK;
     const int y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int width = shading->width - x0 < DIP_BLOCK ? shading->width - x0 : DIP_BLOCK;
     for (int y = y0; y < y0 + DIP_BLOCK && y < shading->height; y++) {
-        for (int x = x0; x < x0 + DIP_BLOCK && x < shading->width; x++) {
-            clear_pixel(shading, y * DIP_TILE + x);
-        }
+        clear_row(shading, x0, y, width);
     }
 }
 
