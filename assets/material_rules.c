@@ -2,7 +2,6 @@
 // no material fits and light maps that cannot be read.
 #include "assets/model_parts.h"
 
-#include <stdio.h>
 #include <string.h>
 
 // Greedy matching with one point of return: after a mismatch, the last `*` takes one byte more. A

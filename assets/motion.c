@@ -2,7 +2,6 @@
 // ones move.
 #include "assets/model_parts.h"
 
-#include <stdio.h>
 #include <string.h>
 
 // Copies an array so that it lives as long as the model. A NULL stays NULL. Returns false when

@@ -5,7 +5,6 @@
 
 #include <cjson/cJSON.h>
 
-#include <math.h>
 #include <string.h>
 
 enum { TEXTURE_UNREAD = -2, MATERIAL_UNREAD = -1 };

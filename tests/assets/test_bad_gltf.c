@@ -1,7 +1,7 @@
 // Tests what the reader of glTF files refuses in meshes, nodes, skins, animations and materials.
 // One small file is changed in one place at a time. Each fault has the exact key, code and reason,
-// and where there is a limit, the change on its other side is accepted. Both readers of glTF are
-// tested: that of scenes and that of animated models.
+// and where there is a limit, the change on its other side is accepted. Each file goes to both
+// readers of glTF: the one that makes scenes, and the one that makes animated models.
 #include "assets/animation.h"
 #include "assets/model.h"
 #include "tests/assets/fixture.h"

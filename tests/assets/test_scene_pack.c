@@ -114,14 +114,20 @@ static void a_pack_gives_back_the_scene(void **state) {
     }
 }
 
-static void a_pack_gives_back_the_failure_and_the_warnings(void **state) {
-    (void)state;
-    DipScenePack written = {0};
+// Returns a pack with a warning and a failure. The caller frees the list of warnings.
+static DipScenePack failed_pack(void) {
+    DipScenePack pack = {0};
     DipError warning;
     dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, "a.obj", 0, "wall", "two\nlines");
     warning.severity = DIP_SEVERITY_WARNING;
-    dip_error_list_add(&written.warnings, &warning);
-    dip_error_set(&written.failure, DIP_ERROR_RANGE, "a.obj", 7, "roof", "too large");
+    dip_error_list_add(&pack.warnings, &warning);
+    dip_error_set(&pack.failure, DIP_ERROR_RANGE, "a.obj", 7, "roof", "too large");
+    return pack;
+}
+
+static void a_pack_gives_back_the_failure_and_the_warnings(void **state) {
+    (void)state;
+    DipScenePack written = failed_pack();
     size_t size_bytes;
     uint8_t *bytes = pack_bytes(&written, &size_bytes);
     DipScenePack read;
@@ -420,12 +426,7 @@ static void wrong_records_of_motion_are_named(void **state) {
 // A pack has one failure. Here, the warning and the failure pass for two failures.
 static void several_failures_are_refused(void **state) {
     (void)state;
-    DipScenePack written = {0};
-    DipError warning;
-    dip_error_set(&warning, DIP_ERROR_UNSUPPORTED, "a.obj", 0, "wall", "one");
-    warning.severity = DIP_SEVERITY_WARNING;
-    dip_error_list_add(&written.warnings, &warning);
-    dip_error_set(&written.failure, DIP_ERROR_RANGE, "a.obj", 7, "roof", "two");
+    DipScenePack written = failed_pack();
     size_t size_bytes;
     uint8_t *bytes = pack_bytes(&written, &size_bytes);
     PackHeader header;
