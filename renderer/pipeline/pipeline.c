@@ -22,8 +22,7 @@ struct DipPipeline {
     int worker_count;
     DipTileWorker **workers;
     DipGeometry geometry;
-    DipTilePass tile_pass; // the pass being drawn
-    DipTileWork *tile_work;
+    DipTilePass tile_pass;      // the pass being drawn
     DipTileRecording recording; // its arrays are NULL unless tiles are recorded
     int draw_room;              // number of draws for which the workers have lists
     uint8_t *is_ordered;        // one per draw (draw_room)
@@ -123,9 +122,14 @@ static void begin_merge(DipPipeline *pipeline, const DipPass *pass) {
 }
 
 static void begin_recording(DipPipeline *pipeline) {
-    pipeline->tile_pass.mixed = pipeline->recording.mixed;
-    if (pipeline->recording.mixed) {
-        memset(pipeline->recording.mixed, 0, (size_t)pipeline->width * (size_t)pipeline->height);
+    const DipTileRecording *recording = &pipeline->recording;
+    pipeline->tile_pass.recording = *recording;
+    if (recording->tiles) {
+        memset(recording->tiles, 0,
+               dip_geometry_tiles(&pipeline->geometry) * sizeof *recording->tiles);
+    }
+    if (recording->mixed) {
+        memset(recording->mixed, 0, (size_t)pipeline->width * (size_t)pipeline->height);
     }
 }
 
@@ -223,8 +227,7 @@ static void share_shading(const DipPassWork *work) {
 static void draw_tile(DipPipeline *pipeline, int tile, int worker_index) {
     const DipGeometry *geometry = pipeline->tile_pass.geometry;
     if (tile < geometry->tile_count) {
-        const int index = geometry->tiles[tile];
-        dip_tile_worker_draw(pipeline->workers[worker_index], index, &pipeline->tile_work[index]);
+        dip_tile_worker_draw(pipeline->workers[worker_index], geometry->tiles[tile]);
     }
 }
 
@@ -269,31 +272,30 @@ static int greatest_tile_count(const Batch *batch) {
     return greatest;
 }
 
-static void record_tiles(const DipPipeline *pipeline) {
-    DipTileRecord *records = pipeline->recording.tiles;
-    if (records) {
-        memset(records, 0, dip_geometry_tiles(&pipeline->geometry) * sizeof *records);
-        dip_pass_record_tiles(&pipeline->tile_pass, pipeline->tile_work, records);
+// Returns the sum of the records of all tiles that the pipeline's workers have drawn in its pass.
+static DipTileRecord sum_tiles(const DipPipeline *pipeline) {
+    DipTileRecord sum = {.raster_ns = 0};
+    for (int w = 0; w < pipeline->worker_count; w++) {
+        dip_tile_record_add(&pipeline->workers[w]->pass_record, &sum);
     }
+    return sum;
 }
 
 // tiles_ns: wall-clock time of drawing the tiles of all passes.
 static void add_results(const Batch *batch, int64_t tiles_ns) {
-    DipStageSums sums[DIP_MAX_PASSES_AT_ONCE];
+    DipTileRecord sums[DIP_MAX_PASSES_AT_ONCE];
     int64_t total_ns = 0;
     for (int i = 0; i < batch->count; i++) {
-        const DipPipeline *pipeline = batch->works[i].pipeline;
-        sums[i] = dip_pass_sum_stages(&pipeline->tile_pass, pipeline->tile_work);
-        total_ns += sums[i].total_ns;
+        sums[i] = sum_tiles(batch->works[i].pipeline);
+        total_ns += dip_tile_record_ns(&sums[i]);
     }
     const double scale = total_ns ? 1e-6 * (double)tiles_ns / (double)total_ns : 0.0;
     for (int i = 0; i < batch->count; i++) {
         const DipPassWork *work = &batch->works[i];
         if (work->counters) {
-            dip_pass_add_counters(&work->pipeline->tile_pass, work->pipeline->tile_work,
+            dip_pass_add_counters(work->pass, work->pipeline->tile_pass.geometry, &sums[i],
                                   work->counters);
         }
-        record_tiles(work->pipeline);
         if (work->times) {
             dip_pass_add_times(&sums[i], batch->geometry_ns[i], scale, work->times);
         }
@@ -461,11 +463,9 @@ void dip_pipeline_record_tiles(DipPipeline *pipeline, const DipTileRecording *re
 // --- creating and destroying -------------------------------------------------------------------
 
 static bool allocate_parts(DipPipeline *pipeline) {
-    const size_t tiles = (size_t)pipeline->geometry.tiles_x * (size_t)pipeline->geometry.tiles_y;
-    pipeline->tile_work = calloc(tiles, sizeof *pipeline->tile_work);
     pipeline->srgb = malloc(sizeof *pipeline->srgb);
     pipeline->workers = calloc((size_t)pipeline->worker_count, sizeof(DipTileWorker *));
-    if (!pipeline->tile_work || !pipeline->srgb || !pipeline->workers) {
+    if (!pipeline->srgb || !pipeline->workers) {
         return false;
     }
     for (int w = 0; w < pipeline->worker_count; w++) {
@@ -535,7 +535,6 @@ void dip_pipeline_destroy(DipPipeline **pipeline_pointer) {
     dip_geometry_free(&pipeline->geometry);
     free(pipeline->is_ordered);
     free(pipeline->workers);
-    free(pipeline->tile_work);
     free(pipeline->srgb);
     free(pipeline);
     *pipeline_pointer = NULL;

@@ -41,7 +41,7 @@ static void shade_plain_draws(DipTileWorker *worker) {
     const int64_t begin_ns = dip_clock_ns();
     dip_tile_worker_shade_tile(worker);
     worker->shading_ns += dip_clock_ns() - begin_ns;
-    worker->work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
+    worker->tile_record.counters.pixels_resolved += (uint64_t)worker->shading.multi_fragment_count;
     dip_tile_worker_record_mixed(worker);
     worker->shading.multi_fragment_count = 0;
     dip_merge_clear_ids(&worker->tile);
@@ -58,7 +58,7 @@ static void shade_ordered_batch(DipTileWorker *worker, DipOrderedBatch *batch) {
         worker->batch.alpha[i] = 1.0f;
     }
     const int count = dip_tile_worker_shade(worker, (uint32_t)worker->merge.draw, &batch->list);
-    worker->work->ordered_fragments += (uint64_t)count;
+    worker->tile_record.counters.fragments_ordered += (uint64_t)count;
     pass->kernels->dip_kernel_blend(&worker->merge.colours, worker->merge.ordered.state, batch,
                                     &worker->batch);
     batch->list.count = 0;
@@ -147,7 +147,7 @@ void dip_merged_tile_begin(DipTileWorker *worker) {
 }
 
 void dip_merged_tile_draw(DipTileWorker *worker, int index) {
-    DipTileWork *work = worker->work;
+    DipTileRecord *record = &worker->tile_record;
     MergeVisit visit = {worker, dip_tile_worker_clip_test(worker, NULL)};
     const int64_t begin_ns = dip_clock_ns();
     worker->merge.draw = -1;
@@ -162,7 +162,7 @@ void dip_merged_tile_draw(DipTileWorker *worker, int index) {
     const int64_t drawn_ns = dip_clock_ns();
     dip_store_attachments(&worker->pass->merge, &worker->merge, &worker->tile,
                           worker->shading.light16);
-    work->stage_ns[DIP_TILE_STAGE_RASTER] += drawn_ns - begin_ns - worker->shading_ns;
-    work->stage_ns[DIP_TILE_STAGE_SHADING] = worker->shading_ns;
-    work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - drawn_ns;
+    record->raster_ns += drawn_ns - begin_ns - worker->shading_ns;
+    record->shading_ns = worker->shading_ns;
+    record->resolve_ns = dip_clock_ns() - drawn_ns;
 }

@@ -1,29 +1,22 @@
-// What a pass did: its counters, the records of its tiles, and its times. Each function is given
-// the pass that was drawn and the work of all tiles of its target.
+// What a pass did: its counters and its times, from the records of the tiles that were drawn.
 #ifndef DIP_RENDERER_PIPELINE_RUN_PASS_RESULTS_H
 #define DIP_RENDERER_PIPELINE_RUN_PASS_RESULTS_H
 
+#include "renderer/pipeline/geometry/geometry.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/pipeline/run/tile_worker.h"
 
-// Adds the work of a pass to counters.
-void dip_pass_add_counters(const DipTilePass *tile_pass, const DipTileWork *work,
-                           DipPipelineCounters *counters);
+// Adds the counters and times of a record to those of another.
+void dip_tile_record_add(const DipTileRecord *from, DipTileRecord *to);
 
-// Writes the records of the tiles that were drawn. The other records stay as they are.
-void dip_pass_record_tiles(const DipTilePass *tile_pass, const DipTileWork *work,
-                           DipTileRecord *records);
+// Returns the time of all stages of a record, in nanoseconds.
+int64_t dip_tile_record_ns(const DipTileRecord *record);
 
-// The time of each stage, summed over a pass's tiles on all workers.
-typedef struct DipStageSums {
-    int64_t ns[DIP_TILE_STAGE_COUNT];
-    int64_t total_ns;
-} DipStageSums;
+// Adds the work of a pass to counters. tiles: the sum of the records of the tiles that were drawn.
+void dip_pass_add_counters(const DipPass *pass, const DipGeometry *geometry,
+                           const DipTileRecord *tiles, DipPipelineCounters *counters);
 
-DipStageSums dip_pass_sum_stages(const DipTilePass *tile_pass, const DipTileWork *work);
-
-// Adds the times of a pass. tile_scale: milliseconds of wall-clock time per nanosecond in `sums`.
-void dip_pass_add_times(const DipStageSums *sums, int64_t geometry_ns, double tile_scale,
+// Adds the times of a pass. tile_scale: milliseconds of wall-clock time per nanosecond in `tiles`.
+void dip_pass_add_times(const DipTileRecord *tiles, int64_t geometry_ns, double tile_scale,
                         DipStageTimes *times);
 
 #endif

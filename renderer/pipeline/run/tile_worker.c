@@ -6,6 +6,7 @@
 #include "renderer/pipeline/geometry/visit.h"
 #include "renderer/pipeline/resolve/readback.h"
 #include "renderer/pipeline/resolve/resolve.h"
+#include "renderer/pipeline/run/pass_results.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -45,9 +46,9 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmen
     dip_shader_guard_bind(&worker->guard, draw_index, draw->varying_count,
                           draw->varying_count - draw->value_only_varying_count, batch);
     draw->fragment_shader(batch);
-    worker->work->batches++;
+    worker->tile_record.counters.shader_batches++;
     if (list == &worker->shading.whole_lists[draw_index]) {
-        worker->work->block_fragments += (uint64_t)batch->count;
+        worker->tile_record.counters.fragments_of_blocks += (uint64_t)batch->count;
     }
     return batch->count;
 }
@@ -106,7 +107,7 @@ const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle) 
     dip_shader_guard_bind(&worker->clip_guard, triangle->draw, draw->clip_varying_count,
                           draw->clip_varying_count, batch);
     draw->clip_shader(batch);
-    worker->work->clip_tested += (uint64_t)worker->clip_list.count;
+    worker->tile_record.counters.fragments_clip_tested += (uint64_t)worker->clip_list.count;
     return batch->keep;
 }
 
@@ -126,7 +127,8 @@ void dip_tile_worker_cover(DipTileWorker *worker, uint32_t index) {
     const DipTriangle *triangle = &pass->geometry->triangles[index];
     const DipClipTest clip = dip_tile_worker_clip_test(worker, pass->groups);
     const bool clipped = pass->pass->draws[triangle->draw].clip_shader != NULL;
-    worker->work->clip_sample_groups += clipped ? (uint64_t)sample_group_count(pass) : 0;
+    worker->tile_record.counters.clip_sample_groups +=
+        clipped ? (uint64_t)sample_group_count(pass) : 0;
     pass->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
                                             clipped ? &clip : NULL);
 }
@@ -213,13 +215,13 @@ static void begin_tile(DipTileWorker *worker, int index) {
 }
 
 void dip_tile_worker_record_mixed(const DipTileWorker *worker) {
-    if (!worker->pass->mixed) {
+    if (!worker->pass->recording.mixed) {
         return;
     }
     const DipTileShading *shading = &worker->shading;
     const size_t width = (size_t)worker->pass->pass->target.width;
     uint8_t *first =
-        worker->pass->mixed + (size_t)worker->tile.y0 * width + (size_t)worker->tile.x0;
+        worker->pass->recording.mixed + (size_t)worker->tile.y0 * width + (size_t)worker->tile.x0;
     for (int i = 0; i < shading->multi_fragment_count; i++) {
         const size_t pixel = shading->multi_fragment[i];
         first[pixel / DIP_TILE * width + pixel % DIP_TILE] = 1;
@@ -228,14 +230,14 @@ void dip_tile_worker_record_mixed(const DipTileWorker *worker) {
 
 void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns) {
     const DipTilePass *pass = worker->pass;
-    DipTileWork *work = worker->work;
+    DipTileRecord *record = &worker->tile_record;
     const int64_t covered_ns = dip_clock_ns();
     dip_tile_worker_shade_tile(worker);
     const int64_t shaded_ns = dip_clock_ns();
     dip_resolve_multi_fragment(&worker->shading, pass->srgb->code);
-    work->stage_ns[DIP_TILE_STAGE_RASTER] += covered_ns - begin_ns;
-    work->stage_ns[DIP_TILE_STAGE_SHADING] = shaded_ns - covered_ns;
-    work->stage_ns[DIP_TILE_STAGE_RESOLVE] = dip_clock_ns() - shaded_ns;
+    record->raster_ns += covered_ns - begin_ns;
+    record->shading_ns = shaded_ns - covered_ns;
+    record->resolve_ns = dip_clock_ns() - shaded_ns;
     dip_tile_worker_record_mixed(worker);
 }
 
@@ -262,16 +264,17 @@ void dip_tile_worker_shade_tile(DipTileWorker *worker) {
     shading->active_count = 0;
 }
 
-static void add_shader_work(const DipShaderWork *from, DipShaderWork *to) {
-    to->probes += from->probes;
-    to->texels += from->texels;
+static void add_shader_work(const DipShaderWork *from, DipPipelineCounters *to) {
+    to->texture_probes += from->probes;
+    to->texels_fetched += from->texels;
     for (int i = 0; i < DIP_SHADER_COUNT_MAX; i++) {
-        to->counts[i] += from->counts[i];
+        to->shader_counts[i] += from->counts[i];
     }
 }
 
 void dip_tile_worker_begin_pass(DipTileWorker *worker) {
     const DipTilePass *pass = worker->pass;
+    worker->pass_record = (DipTileRecord){.raster_ns = 0};
     worker->shading.share.offers = false;
     worker->shading.share.from = NULL;
     DipShaderGuard *const guards[2] = {&worker->guard, &worker->clip_guard};
@@ -282,7 +285,7 @@ void dip_tile_worker_begin_pass(DipTileWorker *worker) {
 }
 
 // Hands the finished tile to the caller.
-static void hand_over(const DipTileWorker *worker) {
+static void hand_over(DipTileWorker *worker) {
     const DipPass *pass = worker->pass->pass;
     const DipTile *tile = &worker->tile;
     const DipTileShading *shading = &worker->shading;
@@ -290,35 +293,46 @@ static void hand_over(const DipTileWorker *worker) {
                                     tile->y0 + shading->height};
     const int64_t begin_ns = dip_clock_ns();
     pass->tile_done(pass->tile_context, &pixels, shading->light16);
-    worker->work->stage_ns[DIP_TILE_STAGE_RESOLVE] += dip_clock_ns() - begin_ns;
+    worker->tile_record.resolve_ns += dip_clock_ns() - begin_ns;
 }
 
-void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work) {
-    *work = (DipTileWork){.clip_tested = 0};
-    worker->work = work;
+// Counts the work of a drawn tile that is known only when it has ended.
+static void count_tile(DipTileWorker *worker) {
+    DipPipelineCounters *counters = &worker->tile_record.counters;
+    counters->tiles_drawn = 1;
+    counters->sub_blocks_tested = worker->tile.sub_blocks_tested;
+    counters->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
+    counters->fragments_shaded = worker->shading.fragments;
+    counters->fragments_copied = worker->shading.copied;
+    counters->samples_shown = worker->shading.samples;
+    counters->pixels_resolved += (uint64_t)worker->shading.multi_fragment_count;
+    counters->clip_probes = worker->clip_batch.work.probes;
+    add_shader_work(&worker->batch.work, counters);
+    add_shader_work(&worker->clip_batch.work, counters);
+}
+
+void dip_tile_worker_draw(DipTileWorker *worker, int index) {
+    const DipTilePass *pass = worker->pass;
+    worker->tile_record = (DipTileRecord){.raster_ns = 0};
     const int64_t begin_ns = dip_clock_ns();
     begin_tile(worker, index);
-    work->stage_ns[DIP_TILE_STAGE_RASTER] = dip_clock_ns() - begin_ns;
-    if (worker->pass->merged) {
+    worker->tile_record.raster_ns = dip_clock_ns() - begin_ns;
+    if (pass->merged) {
         dip_merged_tile_draw(worker, index);
     } else {
         draw_plain_tile(worker, index);
     }
-    if (worker->pass->pass->depths) {
-        dip_store_pass_depths(worker->pass->pass, &worker->tile);
+    if (pass->pass->depths) {
+        dip_store_pass_depths(pass->pass, &worker->tile);
     }
-    if (worker->pass->pass->tile_done) {
+    if (pass->pass->tile_done) {
         hand_over(worker);
     }
-    work->sub_blocks_tested = worker->tile.sub_blocks_tested;
-    work->sub_blocks_accepted = worker->tile.sub_blocks_accepted;
-    work->fragments = worker->shading.fragments;
-    work->copied_fragments = worker->shading.copied;
-    work->samples = worker->shading.samples;
-    work->multi_fragment_pixels += (uint64_t)worker->shading.multi_fragment_count;
-    add_shader_work(&worker->batch.work, &work->sampling);
-    add_shader_work(&worker->clip_batch.work, &work->sampling);
-    work->clip_probes = worker->clip_batch.work.probes;
+    count_tile(worker);
+    dip_tile_record_add(&worker->tile_record, &worker->pass_record);
+    if (pass->recording.tiles) {
+        pass->recording.tiles[index] = worker->tile_record;
+    }
 }
 
 // --- creating and destroying -------------------------------------------------------------------

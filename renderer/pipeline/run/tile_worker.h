@@ -11,33 +11,6 @@
 #include "renderer/pipeline/run/shader_guard.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 
-// The parts of a tile's work whose times are measured.
-typedef enum DipTileStage {
-    DIP_TILE_STAGE_RASTER,
-    DIP_TILE_STAGE_SHADING,
-    DIP_TILE_STAGE_RESOLVE,
-    DIP_TILE_STAGE_COUNT
-} DipTileStage;
-
-// The counters and times of drawing one tile. The pipeline sums them in tile order after all tiles
-// are drawn.
-typedef struct DipTileWork {
-    DipShaderWork sampling;
-    uint64_t sub_blocks_tested;
-    uint64_t sub_blocks_accepted;
-    uint64_t clip_tested;
-    uint64_t clip_probes;
-    uint64_t clip_sample_groups;
-    uint64_t fragments;
-    uint64_t copied_fragments;
-    uint64_t block_fragments;
-    uint64_t batches;
-    uint64_t ordered_fragments;
-    uint64_t samples;
-    uint64_t multi_fragment_pixels;
-    int64_t stage_ns[DIP_TILE_STAGE_COUNT];
-} DipTileWork;
-
 // Data that all tiles of a pass share. The data do not change while tiles are drawn.
 typedef struct DipTilePass {
     const DipKernels *kernels;
@@ -54,10 +27,10 @@ typedef struct DipTilePass {
     uint32_t clear_rgba8;
     int32_t clear_linear16[3];
     const DipSrgbEncodeTable *srgb;
-    const float *srgb_light; // linear light of the 256 8-bit sRGB values
-    bool merged;             // the pass is merged (merge/merge_tile.h)
-    bool merges_all;         // it merges even the tiles that no ordered draw reaches
-    uint8_t *mixed;          // DipTileRecording.mixed; NULL unless tiles are recorded
+    const float *srgb_light;    // linear light of the 256 8-bit sRGB values
+    bool merged;                // the pass is merged (merge/merge_tile.h)
+    bool merges_all;            // it merges even the tiles that no ordered draw reaches
+    DipTileRecording recording; // where the tiles are recorded, or NULL
     DipMergePass merge;
 } DipTilePass;
 
@@ -79,7 +52,8 @@ typedef struct DipTileWorker {
     DipMergeTile merge; // its arrays exist once a merged pass has been drawn
     bool merging;       // the tile is being merged
     int64_t shading_ns; // merged passes: time of shading in the tile so far
-    DipTileWork *work;  // counters and times of the tile that is being drawn
+    DipTileRecord tile_record; // of the tile that is being drawn
+    DipTileRecord pass_record; // the sum of those that this worker has drawn in the pass
 } DipTileWorker;
 
 // Creates the working memory of one thread. Each worker's memory is allocated separately, so that
@@ -129,10 +103,11 @@ void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns);
 void dip_merged_tile_begin(DipTileWorker *worker);
 void dip_merged_tile_draw(DipTileWorker *worker, int index);
 
-// Prepares a worker for the tiles of its next pass, which shares no shading yet.
+// Prepares a worker for the tiles of its next pass: it has drawn none, and shares no shading yet.
 void dip_tile_worker_begin_pass(DipTileWorker *worker);
 
-// Draws the tile with this index (y * tiles_x + x) and fills in *work.
-void dip_tile_worker_draw(DipTileWorker *worker, int index, DipTileWork *work);
+// Draws the tile with this index (y * tiles_x + x), adds its counters and times to
+// worker->pass_record, and records it if tiles are recorded.
+void dip_tile_worker_draw(DipTileWorker *worker, int index);
 
 #endif
