@@ -66,6 +66,8 @@ static const DipTarget own_rows = {
     .rgba8 = pictures[0][0] + WIDTH * 8, .stride_bytes = WIDTH * 4, .width = WIDTH, .height = 1};
 static const DipShadowMap no_depths;
 MISREAD(values_only, draw->value_only_varying_count = 2)
+MISREAD(values_for_two_probes, (values_only(pass, draw, sampler, reading), sampler->no_mips = true,
+                                sampler->max_anisotropy = 2))
 MISREAD(beyond, reading->u_varying = 2)
 MISREAD(far_beyond, reading->u_varying = INT32_MAX)
 MISREAD(negative, reading->u_varying = -1)
@@ -85,6 +87,7 @@ MISREAD(shadow_of_nothing, reading->shadow = &no_depths)
 
 static const BadReading bad_readings[] = {
     {"value_only_varying_count", DIP_ERROR_CONFLICT, values_only},
+    {"value_only_varying_count", DIP_ERROR_CONFLICT, values_for_two_probes},
     {"varying_count", DIP_ERROR_RANGE, beyond},
     {"varying_count", DIP_ERROR_RANGE, far_beyond},
     {"varying_count", DIP_ERROR_RANGE, negative},
@@ -125,6 +128,24 @@ static bool draw_reading(const Stage *stage, const BadReading *bad, int samples,
     const bool drawn = dip_pipeline_draw(stage->pipelines[0], &pass, NULL, NULL, err);
     dip_texture_destroy(&texture);
     return drawn;
+}
+
+// What a read without mips takes no derivatives for: one probe, and the nearest texel.
+MISREAD(values_for_one_probe, (values_only(pass, draw, sampler, reading), sampler->no_mips = true,
+                               sampler->max_anisotropy = 1))
+MISREAD(values_for_a_point, (values_for_one_probe(pass, draw, sampler, reading),
+                             sampler->max_anisotropy = 16, sampler->filter = DIP_FILTER_POINT))
+
+static void a_read_of_one_place_needs_no_derivatives(void **state) {
+    const Stage *stage = *state;
+    static const BadReading readings[2] = {{.spoil = values_for_one_probe},
+                                           {.spoil = values_for_a_point}};
+    for (int i = 0; i < 2; i++) {
+        DipError err = {0};
+        if (!draw_reading(stage, &readings[i], 1, &err)) {
+            fail_msg("%d: %s", i, err.message);
+        }
+    }
 }
 
 static void read_last_sampler(DipFragmentBatch *batch) {
@@ -335,6 +356,7 @@ static void varyings_that_a_draw_lacks_are_dropped(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_read_of_one_place_needs_no_derivatives),
         cmocka_unit_test(the_last_sampler_can_be_read),
         cmocka_unit_test(readings_that_are_not_allowed_are_refused_by_name),
         cmocka_unit_test(a_pass_reads_nothing_that_is_drawn_at_once),
