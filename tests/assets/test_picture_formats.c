@@ -181,6 +181,15 @@ static void dds_formats_are_known_by_their_numbers(void **state) {
             const uint8_t expected[4] = {rgba ? 10 : 30, 20, rgba ? 30 : 10, bgrx ? 255 : 40};
             assert_memory_equal(picture.rgba8, expected, 4);
         }
+        if (block) {
+            // The first texel's alpha: its index 2 in a block of three colours (BC1) is opaque; BC2
+            // has 4 bits, here 10 of 15; BC3 has the index 30 mod 8 = 6, which is 0 if the first
+            // end (10) is less than the second (20).
+            const uint8_t expected = number <= 72 ? 255 : number <= 75 ? 170 : 0;
+            if (picture.rgba8[3] != expected) {
+                fail_msg("the DXGI format %d has the alpha %d", number, picture.rgba8[3]);
+            }
+        }
         dip_picture_free(&picture);
     }
 }
