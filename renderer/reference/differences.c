@@ -18,9 +18,6 @@ static double round_root(double lin, double low_bits) {
 }
 
 void dip_reference_round_colour(double rgb_lin[3]) {
-    for (int c = 0; c < 3; c++) {
-        rgb_lin[c] = fmin(fmax(rgb_lin[c], 0.0), 1.0);
-    }
     const double blue = floor(sqrt(rgb_lin[2]) * 1023.0 + 0.5); // five bits stand beside red, then
     rgb_lin[0] = round_root(rgb_lin[0], floor(blue / 32.0));    // five beside green
     rgb_lin[1] = round_root(rgb_lin[1], fmod(blue, 32.0));

@@ -42,7 +42,7 @@ void dip_reference_interpolate_floats(const DipRefPosition *place, int first, in
 // Rounds the texels of a texture, as above. Fails with MEMORY.
 bool dip_reference_round_texture(DipRefTexture *texture, DipError *err);
 
-// Rounds a colour in linear light as a texel's colour is rounded.
+// Rounds a colour in linear light, 0 to 1, as a texel's colour is rounded.
 void dip_reference_round_colour(double rgb_lin[3]);
 
 // Rounds the pixels of a picture in linear light to 8-bit sRGB codes.

@@ -63,8 +63,15 @@ static bool are_same_file(int a, int b) {
 }
 
 static void close_all(void) {
+    const DipWire open = wire;
     dip_wire_close(&wire);
     assert_true(wire.in == -1 && wire.out == -1);
+    if (open.out != open.in) {
+        assert_int_equal(fcntl(open.out, F_GETFD), -1);
+    }
+    if (open.socket) {
+        assert_int_equal(fcntl(open.in, F_GETFD), -1);
+    }
     dip_endpoint_close(&endpoint);
     assert_int_equal(endpoint.stdout_copy, -1);
 }
