@@ -70,7 +70,8 @@ static DipMesh *mesh_of(const Rectangle *r) {
     const float right = (float)r->x1 / WIDTH * 2.0f - 1.0f;
     const float top = 1.0f - (float)r->y0 / HEIGHT * 2.0f;
     const float bottom = 1.0f - (float)r->y1 / HEIGHT * 2.0f;
-    const float z = (float)r->depth / (DEPTHS + 1);
+    // The farthest ones have about the least depth that a float can have.
+    const float z = r->depth == 1 ? 0x1p-149f : (float)r->depth / (DEPTHS + 1);
     const float vertices[CORNERS][3] = {
         {left, bottom, z}, {right, bottom, z}, {right, top, z}, {left, top, z}};
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
