@@ -8,7 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 #include <cmocka.h>
 
@@ -232,6 +234,20 @@ static void a_named_pipe_is_refused(void **state) {
     assert_refused(fixture_path("null.obj"), DIP_ERROR_IO, "the model is not a regular file");
 }
 
+// The address of a socket is there, but no program can open it as a file.
+static void a_file_that_cannot_be_opened_is_refused(void **state) {
+    (void)state;
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    const char *path = fixture_path("socket.obj");
+    assert_true(strlen(path) < sizeof address.sun_path);
+    strcpy(address.sun_path, path);
+    const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
+    assert_true(listener >= 0);
+    assert_int_equal(bind(listener, (const struct sockaddr *)&address, sizeof address), 0);
+    assert_refused(path, DIP_ERROR_IO, "cannot open the model: ");
+    close(listener);
+}
+
 static void impossible_counts_in_off_files_are_refused(void **state) {
     (void)state;
     fixture_write_text("many.off", "OFF\n# comment\n353535235358 6 0\n0 0 0\n");
@@ -386,6 +402,7 @@ int main(void) {
         cmocka_unit_test(a_cut_glb_file_of_gltf_1_is_refused),
         cmocka_unit_test(a_glb_file_of_gltf_1_nests_at_most_512_deep),
         cmocka_unit_test(a_named_pipe_is_refused),
+        cmocka_unit_test(a_file_that_cannot_be_opened_is_refused),
         cmocka_unit_test(impossible_counts_in_off_files_are_refused),
         cmocka_unit_test(required_extensions_that_cannot_be_decoded_are_refused),
         cmocka_unit_test(other_mentions_of_extensions_are_ignored),
