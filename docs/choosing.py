@@ -469,7 +469,7 @@ def show_pictures(outs):
 
 PARTS = {
     "errors": Part(5, error_jobs, show_errors),
-    "study": Part(12, study_jobs, show_study),
+    "study": Part(5, study_jobs, show_study),
     "pictures": Part(1, picture_jobs, show_pictures),
     "times": Part(1, time_jobs, show_times),
     "study-times": Part(2, study_time_jobs, show_study_times),
