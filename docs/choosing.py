@@ -287,10 +287,12 @@ def as_drawn_job(folder, name):
     def make(diptych):
         width, height, light = read_truth(folder / "truths" / f"{path}-{place}-0.pfm")
         write_ppm(truth, width, height, codes_of(light))
-        flips = {}
-        for settings, (drawn_with, scale, enlarge) in AS_DRAWN.items():
-            picture, own = folder / f"{name}-drawn.ppm", (round(scale * width), round(scale * height))
-            codes = draw(diptych, drawn_with, *own)
+        flips, pictures = {}, {}
+        for number, (settings, (drawn_with, scale, enlarge)) in enumerate(AS_DRAWN.items()):
+            picture, own = folder / f"{name}-{number}.ppm", (round(scale * width), round(scale * height))
+            if (drawn_with, own) not in pictures:
+                pictures[drawn_with, own] = draw(diptych, drawn_with, *own)
+            codes = pictures[drawn_with, own]
             if enlarge:
                 write_ppm(picture, *own, codes)
             else:
