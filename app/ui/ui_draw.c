@@ -152,7 +152,11 @@ static bool place_beside(const DipUi *ui, DipRect off, DipRect *box) {
     const DipRect window = {0, 0, dip_draw_list_width(ui->pass.list),
                             dip_draw_list_height(ui->pass.list)};
     const int x = moved_inside(ui->tip_rect.x, box->width, window.width);
-    const int y = moved_inside(ui->tip_rect.y, box->height, window.height);
+    // Beside a control that is higher than the box, the box follows the pointer.
+    const DipRect control = ui->tip_rect;
+    const int lowest = dip_max(control.y, control.y + control.height - box->height);
+    const int at = dip_max(control.y, dip_min(ui->pointer_y - box->height / 2, lowest));
+    const int y = moved_inside(at, box->height, window.height);
     const DipRect places[] = {
         {x, off.y - gap - box->height, box->width, box->height},
         {off.x + off.width + gap, y, box->width, box->height},

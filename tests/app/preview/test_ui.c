@@ -192,6 +192,37 @@ static void the_wheel_counts_whole_steps(void **state) {
     assert_false(send(&(DipEvent){.kind = DIP_EVENT_MOUSE_WHEEL, .x = 10, .y = 10, .wheel_y = 1}));
 }
 
+// Draws a control alone while the pointer rests at (40, y), until its tip is there. rows: NULL, or
+// what tips stay off.
+static void draw_tip_of(const DipUiControl *control, int y, const DipRect *rows,
+                        DipCanvas *canvas) {
+    const DipEvent move = {.kind = DIP_EVENT_MOUSE_MOVE, .x = 40, .y = y};
+    DipDamage damage;
+    for (int i = 0; i < 3; ++i) {
+        now_ns += 400000000;
+        dip_draw_list_begin(list, WIDTH, HEIGHT);
+        dip_draw_list_fill(list, (DipRect){0, 0, WIDTH, HEIGHT}, (DipColour){0, 0, 0, 255});
+        dip_ui_begin(ui, &(DipUiPass){font, 1.0, now_ns, i ? list : NULL, i ? NULL : &move});
+        if (rows) {
+            dip_ui_keep_tips_off(ui, *rows);
+        }
+        dip_ui_control(ui, control);
+        dip_ui_end(ui);
+    }
+    assert_true(dip_draw_list_paint(list, canvas, &damage, NULL));
+}
+
+// Returns how many pixels of a rectangle are drawn.
+static int drawn_in(const DipCanvas *canvas, DipRect rect) {
+    int drawn = 0;
+    for (int y = rect.y; y < rect.y + rect.height; ++y) {
+        for (int x = rect.x; x < rect.x + rect.width; ++x) {
+            drawn += canvas->rgba8[4 * (WIDTH * y + x)] != 0;
+        }
+    }
+    return drawn;
+}
+
 // Tips of controls among rows stay off these rows; other tips stay off their control.
 static void a_tip_covers_no_row(void **state) {
     (void)state;
@@ -199,31 +230,27 @@ static void a_tip_covers_no_row(void **state) {
         const DipRect rows = {0, row ? 150 : 120, WIDTH, HEIGHT - (row ? 150 : 120)};
         const DipUiControl aimed = {
             .id = 77, .rect = {20, 160, 60, 20}, .tip = "A tip of one line"};
-        const DipEvent move = {.kind = DIP_EVENT_MOUSE_MOVE, .x = 40, .y = 170};
         DipCanvas canvas = {0};
-        DipDamage damage;
-        for (int i = 0; i < 3; ++i) {
-            now_ns += 400000000;
-            dip_draw_list_begin(list, WIDTH, HEIGHT);
-            dip_draw_list_fill(list, (DipRect){0, 0, WIDTH, HEIGHT}, (DipColour){0, 0, 0, 255});
-            dip_ui_begin(ui, &(DipUiPass){font, 1.0, now_ns, i ? list : NULL, i ? NULL : &move});
-            if (row) {
-                dip_ui_keep_tips_off(ui, rows);
-            }
-            dip_ui_control(ui, &aimed);
-            dip_ui_end(ui);
-        }
-        assert_true(dip_draw_list_paint(list, &canvas, &damage, NULL));
-        const DipRect clear = row ? rows : aimed.rect;
-        int drawn = 0;
-        for (int y = 0; y < HEIGHT; ++y) {
-            for (int x = 0; x < WIDTH; ++x) {
-                const bool lit = canvas.rgba8[4 * (WIDTH * y + x)] != 0;
-                assert_false(lit && dip_rect_holds(clear, x, y));
-                drawn += lit;
-            }
-        }
+        draw_tip_of(&aimed, 170, row ? &rows : NULL, &canvas);
+        assert_int_equal(drawn_in(&canvas, row ? rows : aimed.rect), 0);
+        assert_true(drawn_in(&canvas, (DipRect){0, 0, WIDTH, HEIGHT}) > 100);
+        dip_canvas_free(&canvas);
+    }
+}
+
+// So it covers nothing that stands at the top of what a divider divides.
+static void the_tip_of_a_high_control_follows_the_pointer(void **state) {
+    (void)state;
+    const DipUiControl divider = {
+        .id = 78, .rect = {32, 0, 16, HEIGHT}, .tip = "A tip of one line"};
+    for (int y = 0; y < HEIGHT; y += HEIGHT / 5) {
+        DipCanvas canvas = {0};
+        draw_tip_of(&divider, y, NULL, &canvas);
+        const int top = dip_max(0, y - 40), bottom = dip_min(HEIGHT, y + 40);
+        const DipRect beside = {0, top, WIDTH, bottom - top};
+        const int drawn = drawn_in(&canvas, beside);
         assert_true(drawn > 100);
+        assert_int_equal(drawn_in(&canvas, (DipRect){0, 0, WIDTH, HEIGHT}), drawn);
         dip_canvas_free(&canvas);
     }
 }
@@ -332,6 +359,7 @@ int main(void) {
         UI_TEST(arrows_move_the_focus),
         UI_TEST(the_wheel_counts_whole_steps),
         UI_TEST(a_tip_covers_no_row),
+        UI_TEST(the_tip_of_a_high_control_follows_the_pointer),
         UI_TEST(a_tip_appears_after_a_while),
         UI_TEST(any_click_hides_the_focus),
         UI_TEST(drawing_reports_no_input),
