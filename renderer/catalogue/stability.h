@@ -3,11 +3,12 @@
 //
 // A row of the catalogue states a promise, the independent truth that the row compares Diptych
 // with, and a bound. Measuring a row runs many cases and keeps the greatest error. The row holds if
-// the greatest error is at most the bound. The program `stability` (main.c) measures rows, and
-// writes docs/stability.md from them; `diptych verify` measures all rows in their short form.
+// the greatest error is at most the bound. The program `stability` (tests/stability/) measures
+// rows, and writes docs/stability.md from them; `diptych verify` measures all rows in their short
+// form.
 //
-// To add a row, write its measuring function in the rows_*.c of its topic and add an entry to the
-// table at the end of that file. To add a topic, add its table to catalogue.c.
+// To add a row, write its measuring function in the file of its topic in rows/ and add an entry to
+// the table at the end of that file. To add a topic, add its table to catalogue.c.
 #ifndef DIP_RENDERER_CATALOGUE_STABILITY_H
 #define DIP_RENDERER_CATALOGUE_STABILITY_H
 

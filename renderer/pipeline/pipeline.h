@@ -259,9 +259,10 @@ enum { DIP_MAX_PASSES_AT_ONCE = 8 };
 DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool same_geometry,
                                       DipError *err);
 
-// Records the tiles of each pass that the pipeline draws from now on; every pass overwrites the
-// recording. The arrays are borrowed until the next call of this function. NULL stops recording, as
-// at first. Recording changes no picture and no counter.
+// Records the tiles of each pass that the pipeline draws from now on; every pass clears the
+// recording when it begins, and fills it while its tiles are drawn. The arrays are borrowed until
+// the next call of this function. NULL stops recording, as at first. Recording changes no picture
+// and no counter.
 DIP_API void dip_pipeline_record_tiles(DipPipeline *pipeline, const DipTileRecording *recording);
 
 // Allocates the memory that drawing the pass needs. Drawing it later allocates nothing, unless
