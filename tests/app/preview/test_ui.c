@@ -193,23 +193,26 @@ static void the_wheel_counts_whole_steps(void **state) {
 }
 
 // Draws a control alone while the pointer rests at (40, y), until its tip is there. rows: NULL, or
-// what tips stay off.
+// what tips stay off. The list is new, so that the whole canvas is painted.
 static void draw_tip_of(const DipUiControl *control, int y, const DipRect *rows,
                         DipCanvas *canvas) {
     const DipEvent move = {.kind = DIP_EVENT_MOUSE_MOVE, .x = 40, .y = y};
     DipDamage damage;
+    DipDrawList *fresh = dip_draw_list_create(font, NULL);
+    assert_non_null(fresh);
     for (int i = 0; i < 3; ++i) {
         now_ns += 400000000;
-        dip_draw_list_begin(list, WIDTH, HEIGHT);
-        dip_draw_list_fill(list, (DipRect){0, 0, WIDTH, HEIGHT}, (DipColour){0, 0, 0, 255});
-        dip_ui_begin(ui, &(DipUiPass){font, 1.0, now_ns, i ? list : NULL, i ? NULL : &move});
+        dip_draw_list_begin(fresh, WIDTH, HEIGHT);
+        dip_draw_list_fill(fresh, (DipRect){0, 0, WIDTH, HEIGHT}, (DipColour){0, 0, 0, 255});
+        dip_ui_begin(ui, &(DipUiPass){font, 1.0, now_ns, i ? fresh : NULL, i ? NULL : &move});
         if (rows) {
             dip_ui_keep_tips_off(ui, *rows);
         }
         dip_ui_control(ui, control);
         dip_ui_end(ui);
     }
-    assert_true(dip_draw_list_paint(list, canvas, &damage, NULL));
+    assert_true(dip_draw_list_paint(fresh, canvas, &damage, NULL));
+    dip_draw_list_destroy(&fresh);
 }
 
 // Returns how many pixels of a rectangle are drawn.
