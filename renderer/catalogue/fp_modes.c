@@ -8,10 +8,6 @@ static const int rounding[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 #if defined(__SSE2__)
 enum { FLUSH_BITS = 0x8040, X87_PRECISION = 0x300 }; // FTZ and DAZ of MXCSR
 
-bool fp_mode_exists(FpMode mode) {
-    return mode < FP_MODE_COUNT;
-}
-
 static uint16_t read_x87(void) {
     uint16_t word = 0;
     __asm__ volatile("fnstcw %0" : "+m"(word));
@@ -34,10 +30,6 @@ static void write_register(uint64_t value) {
 }
 #elif defined(__aarch64__)
 enum { FLUSH_BITS = 1 << 24, X87_PRECISION = 0 }; // FZ of FPCR
-
-bool fp_mode_exists(FpMode mode) {
-    return mode != FP_MODE_SHORT_X87;
-}
 
 static uint16_t read_x87(void) {
     return 0;

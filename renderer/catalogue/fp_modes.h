@@ -22,10 +22,8 @@ typedef struct FpModeState {
     uint16_t x87;      // the control word of the x87 unit; 0 on other processors
 } FpModeState;
 
-// Returns whether this processor has the mode.
-bool fp_mode_exists(FpMode mode);
-
 const char *fp_mode_name(FpMode mode);
+// Enters the mode. On a processor without an x87 unit, FP_MODE_SHORT_X87 changes nothing.
 FpModeState fp_mode_enter(FpMode mode);
 // Returns whether the thread still computes in this mode.
 bool fp_mode_is(FpMode mode);

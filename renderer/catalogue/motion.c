@@ -1,6 +1,8 @@
 // Moves cameras by fractions of a pixel and compares pictures block by block.
 #include "renderer/catalogue/motion.h"
 
+#include "renderer/base/trig.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,10 +23,10 @@ static void multiply(const double a[4], const double b[4], double product[4]) {
 }
 
 static void turn(DipPose *pose, int axis, double angle) {
-    double step[4] = {0.0, 0.0, 0.0, cos(0.5 * angle)};
+    double step[4] = {0.0, 0.0, 0.0, dip_cos(0.5 * angle)};
     const double before[4] = {pose->orientation[0], pose->orientation[1], pose->orientation[2],
                               pose->orientation[3]};
-    step[axis] = sin(0.5 * angle);
+    step[axis] = dip_sin(0.5 * angle);
     multiply(before, step, pose->orientation);
 }
 
@@ -44,7 +46,7 @@ static void shift(DipPose *pose, int axis, double length_m) {
 }
 
 DipPose motion_move(const DipPose *pose, const MotionStep *step) {
-    const double pixel = 2.0 * tan(pose->fov_y_deg * pi / 360.0) / step->height;
+    const double pixel = 2.0 * dip_tan(pose->fov_y_deg * pi / 360.0) / step->height;
     const double length_m = step->step_px * pixel * step->distance_m;
     DipPose moved = *pose;
     switch (step->kind) {

@@ -2,6 +2,8 @@
 // coverage is hard to compute correctly.
 #include "renderer/catalogue/oracle.h"
 
+#include "renderer/base/trig.h"
+
 #include <math.h>
 
 // --- coverage ----------------------------------------------------------------------------------
@@ -242,7 +244,8 @@ void dip_oracle_make_fan(Random *random, const DipSamplePattern *pattern,
         const double angle =
             (i + random_real(random, 0.0, 0.9)) * (6.283185307179586 / DIP_ORACLE_FAN);
         const double far = radius * random_real(random, 1.0, 3.0);
-        rim[i] = (Point){hub.x + llrint(far * cos(angle)), hub.y + llrint(far * sin(angle))};
+        rim[i] =
+            (Point){hub.x + llrint(far * dip_cos(angle)), hub.y + llrint(far * dip_sin(angle))};
         if (random_int(random, 0, 3) == 0) { // edges run along samples if the hub lies on one
             rim[i].x = i == 2 || i == 6 ? hub.x : rim[i].x;
             rim[i].y = i == 0 || i == 4 ? hub.y : rim[i].y;

@@ -81,6 +81,7 @@ bool stability_draw(StabilityRun *run, const StabilityShot *shot, StabilityPictu
     }
     if (drawn) {
         stability_decode(&frame, picture);
+        dip_hash_text(&run->hash, picture->hash);
     } else {
         break_with(run, shot, &err);
         stability_picture_free(picture);

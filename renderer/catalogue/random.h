@@ -1,7 +1,10 @@
-// A small random generator for tests. Tests seed it, so that a failure can be repeated.
+// A small random generator for tests. Tests seed it, so that a failure can be repeated, with any
+// compiler and C library. Therefore, two numbers are not drawn among the arguments of one call: C
+// leaves open which of them comes first.
 #ifndef DIP_RENDERER_CATALOGUE_RANDOM_H
 #define DIP_RENDERER_CATALOGUE_RANDOM_H
 
+#include <math.h>
 #include <stdint.h>
 
 typedef struct Random {
@@ -23,6 +26,13 @@ static inline int random_int(Random *random, int low, int high) {
 
 static inline double random_real(Random *random, double low, double high) {
     return low + (high - low) * (double)(random_u64(random) >> 11) * 0x1p-53;
+}
+
+// Returns a positive number whose binary exponent is a number from low to high, both included, with
+// the same chance: the number is at least 2^low and less than 2^(high + 1).
+static inline double random_magnitude(Random *random, int low, int high) {
+    const double significand = random_real(random, 1.0, 2.0);
+    return ldexp(significand, random_int(random, low, high));
 }
 
 #endif

@@ -4,12 +4,14 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 bool stability_measure(const StabilityRow *row, StabilityRun *run) {
     run->worst = 0.0;
     run->worst_at[0] = '\0';
     run->case_count = 0;
     run->failed_count = 0;
+    run->hash = dip_hash_begin(0);
     run->broken = false;
     run->broken_why[0] = '\0';
     row->measure(run);
@@ -22,10 +24,13 @@ bool stability_measure(const StabilityRow *row, StabilityRun *run) {
 static void keep_worst(StabilityRun *run, double error, const char *format, va_list arguments) {
     run->case_count++;
     run->failed_count += error != 0.0;
+    char name[sizeof run->worst_at];
+    vsnprintf(name, sizeof name, format, arguments);
+    dip_hash_text(&run->hash, name);
     const double size = isnan(error) ? INFINITY : fabs(error);
     if (size > run->worst) {
         run->worst = size;
-        vsnprintf(run->worst_at, sizeof run->worst_at, format, arguments);
+        memcpy(run->worst_at, name, sizeof name);
     }
 }
 
@@ -52,6 +57,12 @@ void stability_break(StabilityRun *run, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(run->broken_why, sizeof run->broken_why, format, arguments);
     va_end(arguments);
+}
+
+void stability_keep(StabilityRun *run, const double *results, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        dip_hash_number(&run->hash, results[i]);
+    }
 }
 
 int stability_count(const StabilityRun *run, int count_short, int count_full, int count_long) {

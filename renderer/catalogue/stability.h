@@ -13,6 +13,7 @@
 #define DIP_RENDERER_CATALOGUE_STABILITY_H
 
 #include "renderer/base/api.h"
+#include "renderer/base/hash.h"
 #include "renderer/base/isa.h"
 #include "renderer/base/pool.h"
 
@@ -39,7 +40,11 @@ typedef struct StabilityRun {
     char worst_at[200];    // the case with the greatest error, in words; empty: no error
     uint64_t case_count;   // number of cases that were compared
     uint64_t failed_count; // number of cases with an error other than 0
-    bool broken;           // the row could not be measured
+    // Hash of the names of all cases and of what Diptych drew and computed for them. It is the same
+    // with every instruction set of every machine, as long as neither the cases nor the bits of
+    // Diptych's results change.
+    DipHash hash;
+    bool broken; // the row could not be measured
     char broken_why[400];
 } StabilityRun;
 
@@ -73,7 +78,7 @@ bool stability_measure(const StabilityRow *row, StabilityRun *run);
 // --- for measuring functions ------------------------------------------------------------------
 
 // Counts a case and keeps its error if it is the greatest so far. An error that is not a number
-// counts as infinite. The format and its arguments name the case.
+// counts as infinite. The format and its arguments name the case; the hash takes the name.
 void stability_error(StabilityRun *run, double error, const char *format, ...) DIP_PRINTF(3, 4);
 
 // Counts a case whose promise either holds or is broken: the error is 0 or 1.
@@ -82,6 +87,10 @@ void stability_expect(StabilityRun *run, bool holds, const char *format, ...) DI
 // Says that the row cannot be measured, for example because memory is short. The row then does not
 // hold.
 void stability_break(StabilityRun *run, const char *format, ...) DIP_PRINTF(2, 3);
+
+// Adds results of Diptych to the hash. Pictures need no call: the functions that draw add them
+// (pictures.h).
+void stability_keep(StabilityRun *run, const double *results, size_t count);
 
 // Returns the number of random cases for the run's depth.
 int stability_count(const StabilityRun *run, int count_short, int count_full, int count_long);

@@ -27,10 +27,12 @@ static const char *const introduction =
     "the greatest error that the test accepts. Then come the number of cases that the test\n"
     "compares, with each instruction set, and the greatest error that it found. A row has several\n"
     "errors if its code is compiled once per instruction set, and the instruction sets differ.\n"
-    "`./test` measures every row, and fails if a row compares fewer cases than stand here.\n"
-    "`diptych verify` measures every row with fewer cases. Rows N1 to N56 come from a list of\n"
-    "cases that are known to be hard in this field. Rows A1 and up were added after attacks on\n"
-    "Diptych.\n";
+    "The hash is of the names of the cases and of the bits of all pictures and numbers that\n"
+    "Diptych made for them: it must be the same with every instruction set, compiler and system.\n"
+    "`./test` measures every row, and fails if a row has other cases or another hash than stand\n"
+    "here. `diptych verify` measures every row with fewer cases. Rows N1 to N56 come from a list\n"
+    "of cases that are known to be hard in this field. Rows A1 and up were added after attacks\n"
+    "on Diptych.\n";
 
 static void write_errors(FILE *file, const StabilityMeasured *measured) {
     bool same = true;
@@ -67,6 +69,17 @@ static uint64_t least_cases(const StabilityMeasured *measured) {
     return least == UINT64_MAX ? 0 : least;
 }
 
+// Writes the hash, or all hashes if instruction sets differ, which --expect then refuses.
+static void write_hashes(FILE *file, const StabilityMeasured *measured) {
+    const char *last = "";
+    for (int i = 0; i < DIP_ISA_COUNT; i++) {
+        if (measured->known[i] && strcmp(measured->hash[i], last) != 0) {
+            fprintf(file, "%s%s", *last ? ", " : "", measured->hash[i]);
+            last = measured->hash[i];
+        }
+    }
+}
+
 // Formats the columns that --check compares.
 static void format_row(const StabilityRow *row, char line[MAX_LINE]) {
     snprintf(line, MAX_LINE, "| %s | %s | %s | %.3g %s |", row->id, row->promise, row->truth,
@@ -76,13 +89,15 @@ static void format_row(const StabilityRow *row, char line[MAX_LINE]) {
 static void write_topic(FILE *file, const StabilityTopic *topic,
                         const StabilityMeasured *measured) {
     fprintf(file, "\n## %s\n\n", topic->title);
-    fputs("| row | promise | truth | bound | cases | greatest error |\n"
-          "|---|---|---|---|---|---|\n",
+    fputs("| row | promise | truth | bound | cases | hash | greatest error |\n"
+          "|---|---|---|---|---|---|---|\n",
           file);
     for (size_t r = 0; r < topic->row_count; r++) {
         char line[MAX_LINE];
         format_row(&topic->rows[r], line);
         fprintf(file, "%s %" PRIu64 " | ", line, least_cases(&measured[r]));
+        write_hashes(file, &measured[r]);
+        fputs(" | ", file);
         write_errors(file, &measured[r]);
         fputs(" |\n", file);
     }
@@ -103,14 +118,16 @@ bool stability_document_write(const char *path, const StabilityMeasured *measure
     return fclose(file) == 0 && written;
 }
 
-// Reads the number of cases from a line of the page that begins with the columns of a row. Returns
-// false for another line, or if there is no number above 0.
-static bool read_row(const char *line, const StabilityRow *row, uint64_t *cases) {
+// Reads the number of cases and the hash from a line of the page that begins with the columns of a
+// row. Returns false for another line, or if there is no number above 0 or no hash.
+static bool read_row(const char *line, const StabilityRow *row, StabilityListed *listed) {
     char expected[MAX_LINE];
     format_row(row, expected);
     const size_t length = strlen(expected);
     return strncmp(line, expected, length) == 0 &&
-           sscanf(line + length, "%" SCNu64 " |", cases) == 1 && *cases > 0;
+           sscanf(line + length, "%" SCNu64 " | %32[0-9a-f] |", &listed->cases, listed->hash) ==
+               2 &&
+           listed->cases > 0;
 }
 
 static bool is_row_line(const char *line) {
@@ -125,7 +142,7 @@ static const StabilityRow *row_at(size_t index) {
     return t < stability_topic_count ? &stability_topics[t]->rows[index] : NULL;
 }
 
-bool stability_document_read_cases(const char *path, uint64_t *cases) {
+bool stability_document_read(const char *path, StabilityListed *listed) {
     FILE *file = fopen(path, "r");
     if (!file) {
         fprintf(stderr, "%s: cannot be read\n", path);
@@ -137,11 +154,11 @@ bool stability_document_read_cases(const char *path, uint64_t *cases) {
     while (agrees && fgets(line, sizeof line, file)) {
         if (is_row_line(line)) {
             const StabilityRow *row = row_at(index);
-            agrees = row && read_row(line, row, &cases[index]);
+            agrees = row && read_row(line, row, &listed[index]);
             index++;
             if (!agrees) {
-                fprintf(stderr, "%s: expected row %s and its number of cases, found %s", path,
-                        row ? row->id : "(none)", line);
+                fprintf(stderr, "%s: expected row %s, its number of cases and its hash, found %s",
+                        path, row ? row->id : "(none)", line);
             }
         }
     }
@@ -155,8 +172,8 @@ bool stability_document_read_cases(const char *path, uint64_t *cases) {
 }
 
 bool stability_document_check(const char *path) {
-    uint64_t *cases = calloc(stability_row_count(), sizeof *cases);
-    const bool agrees = cases && stability_document_read_cases(path, cases);
-    free(cases);
+    StabilityListed *listed = calloc(stability_row_count(), sizeof *listed);
+    const bool agrees = listed && stability_document_read(path, listed);
+    free(listed);
     return agrees;
 }

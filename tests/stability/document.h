@@ -9,7 +9,14 @@ typedef struct StabilityMeasured {
     bool known[DIP_ISA_COUNT];     // false: the row was not measured with this instruction set
     double worst[DIP_ISA_COUNT];   // greatest error
     uint64_t cases[DIP_ISA_COUNT]; // number of cases that were compared
+    char hash[DIP_ISA_COUNT][DIP_HASH_HEX_SIZE]; // of the cases and results, see StabilityRun
 } StabilityMeasured;
+
+// What the page says of the measurements of a row.
+typedef struct StabilityListed {
+    uint64_t cases; // number of cases
+    char hash[DIP_HASH_HEX_SIZE];
+} StabilityListed;
 
 // The last section of the page: what Diptych does not promise.
 extern const char *const stability_not_promised;
@@ -24,8 +31,8 @@ bool stability_document_write(const char *path, const StabilityMeasured *measure
 // standard error. Returns true if they agree.
 bool stability_document_check(const char *path);
 
-// Reads the number of cases of each row from the page: `cases` has an element for each row. Prints
-// what is wrong with the page to standard error. Returns true if it has a number for every row.
-bool stability_document_read_cases(const char *path, uint64_t *cases);
+// Reads the number of cases and the hash of each row from the page: `listed` has an element for
+// each row. Prints what is wrong with the page to standard error. Returns true if it has every row.
+bool stability_document_read(const char *path, StabilityListed *listed);
 
 #endif

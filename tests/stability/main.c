@@ -24,8 +24,9 @@ static const char *const usage =
     "  --document FILE    Also write the catalogue with the errors measured, as Markdown.\n"
     "  --check FILE       Only compare the rows with a file that --document wrote. Fails if a\n"
     "                     promise, a truth or a bound differs.\n"
-    "  --cases FILE       Also compare the number of cases of each row with the number in a file\n"
-    "                     that --document wrote. Fails if a row has fewer. Needs the depth full.\n"
+    "  --expect FILE      Also compare the number of cases and the hash of each row with those in "
+    "a\n"
+    "                     file that --document wrote. Needs the depth full and the seed 1.\n"
     "  --print-hashes     Print the table of shipped hashes (shipped_list.inc) as this build "
     "draws\n"
     "                     the pictures.\n";
@@ -41,7 +42,7 @@ typedef struct Options {
     int threads;
     const char *document;
     const char *check;
-    const char *cases;
+    const char *expect;
 } Options;
 
 static bool parse_depth(const char *text, StabilityDepth *depth) {
@@ -77,8 +78,8 @@ static bool parse_value(const char *name, const char *value, Options *options) {
         options->document = value;
     } else if (strcmp(name, "--check") == 0) {
         options->check = value;
-    } else if (strcmp(name, "--cases") == 0) {
-        options->cases = value;
+    } else if (strcmp(name, "--expect") == 0) {
+        options->expect = value;
     } else {
         return false;
     }
@@ -103,8 +104,8 @@ static bool parse_options(int argc, char **argv, Options *options) {
             i++;
         }
     }
-    if (options->cases && options->depth != STABILITY_FULL) {
-        fprintf(stderr, "stability: --cases needs the depth full\n");
+    if (options->expect && (options->depth != STABILITY_FULL || options->seed != 1)) {
+        fprintf(stderr, "stability: --expect needs the depth full and the seed 1\n");
         return false;
     }
     return true;
@@ -138,10 +139,21 @@ static void print_result(const StabilityRow *row, const StabilityRun *run, bool 
     fflush(stdout);
 }
 
-// Measures a row with each instruction set that the options choose. least: number of cases that it
-// must compare. Returns the number of failures.
+// Breaks the row if it compared other cases than the page lists, or has other results.
+static void compare_with_page(StabilityRun *run, const char *hash, const StabilityListed *listed) {
+    if (run->case_count != listed->cases) {
+        stability_break(run, "the row compared %" PRIu64 " cases, expected %" PRIu64,
+                        run->case_count, listed->cases);
+    } else if (strcmp(hash, listed->hash) != 0) {
+        stability_break(run, "the cases and results have the hash %s, expected %s", hash,
+                        listed->hash);
+    }
+}
+
+// Measures a row with each instruction set that the options choose. listed: what the page says of
+// it, if the options name a page. Returns the number of failures.
 static int measure_row(const Options *options, const StabilityRow *row, DipPool *pool,
-                       uint64_t least, StabilityMeasured *measured) {
+                       const StabilityListed *listed, StabilityMeasured *measured) {
     int failures = 0;
     for (int i = 0; i < DIP_ISA_COUNT; i++) {
         const DipIsa isa = (DipIsa)i;
@@ -154,10 +166,10 @@ static int measure_row(const Options *options, const StabilityRow *row, DipPool 
         StabilityRun run = {
             .isa = isa, .pool = pool, .depth = options->depth, .seed = options->seed};
         bool holds = stability_measure(row, &run);
-        if (holds && run.case_count < least) {
-            stability_break(&run, "the row compared %" PRIu64 " cases, expected %" PRIu64,
-                            run.case_count, least);
-            holds = false;
+        dip_hash_hex(&run.hash, measured->hash[i]);
+        if (holds && options->expect) {
+            compare_with_page(&run, measured->hash[i], listed);
+            holds = !run.broken;
         }
         failures += !holds;
         measured->known[i] = !run.broken;
@@ -168,8 +180,8 @@ static int measure_row(const Options *options, const StabilityRow *row, DipPool 
     return failures;
 }
 
-// least: the number of cases that each row must compare.
-static int measure_rows(const Options *options, DipPool *pool, const uint64_t *least,
+// listed: what the page says of each row, if the options name a page.
+static int measure_rows(const Options *options, DipPool *pool, const StabilityListed *listed,
                         StabilityMeasured *measured) {
     int failures = 0;
     int count = 0;
@@ -179,7 +191,7 @@ static int measure_rows(const Options *options, DipPool *pool, const uint64_t *l
         for (size_t r = 0; r < topic->row_count; r++, index++) {
             if (is_chosen(options, topic, &topic->rows[r])) {
                 failures +=
-                    measure_row(options, &topic->rows[r], pool, least[index], &measured[index]);
+                    measure_row(options, &topic->rows[r], pool, &listed[index], &measured[index]);
                 count++;
             }
         }
@@ -192,20 +204,20 @@ static int run(const Options *options) {
     DipError err;
     DipPool *pool = dip_pool_create(options->threads, &err);
     StabilityMeasured *measured = calloc(stability_row_count(), sizeof *measured);
-    uint64_t *least = calloc(stability_row_count(), sizeof *least);
+    StabilityListed *listed = calloc(stability_row_count(), sizeof *listed);
     int failures = 1;
-    if (!pool || !measured || !least) {
+    if (!pool || !measured || !listed) {
         fprintf(stderr, "stability: no memory or no threads\n");
     } else if (options->print_hashes) {
         failures = !stability_print_hashes(pool);
-    } else if (!options->cases || stability_document_read_cases(options->cases, least)) {
-        failures = measure_rows(options, pool, least, measured);
+    } else if (!options->expect || stability_document_read(options->expect, listed)) {
+        failures = measure_rows(options, pool, listed, measured);
         if (options->document && !stability_document_write(options->document, measured)) {
             fprintf(stderr, "stability: cannot write %s\n", options->document);
             failures++;
         }
     }
-    free(least);
+    free(listed);
     free(measured);
     dip_pool_destroy(&pool);
     return failures != 0;

@@ -51,7 +51,7 @@ static void the_mode_of_the_caller_changes_nothing(void **state) {
         }
         for (int m = 0; m < FP_MODE_COUNT; m++) {
             mode = (FpMode)m;
-            faults += fp_mode_exists(mode) && !is_same(&walked[e], expected);
+            faults += !is_same(&walked[e], expected);
         }
         mode = FP_MODE_COUNT;
     }

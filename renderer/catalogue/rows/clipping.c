@@ -1,4 +1,5 @@
 // Rows about triangles that are cut: by the near plane, in the eye's plane, and at the guard band.
+#include "renderer/base/trig.h"
 #include "renderer/catalogue/random.h"
 #include "renderer/catalogue/scenes.h"
 #include "renderer/catalogue/pictures.h"
@@ -181,7 +182,7 @@ static void measure_eye_plane(StabilityRun *run) {
     for (int n = 0; n < count; n++) {
         float positions[9];
         for (int i = 0; i < 3; i++) {
-            const double size = pow(10.0, random_real(&random, -3.0, 10.0));
+            const double size = random_magnitude(&random, -10, 33);
             positions[3 * i] = (float)random_real(&random, -size, size);
             positions[3 * i + 1] = (float)random_real(&random, -size, size);
             positions[3 * i + 2] = -depths[random_int(&random, 0, DEPTHS - 1)];
@@ -196,7 +197,7 @@ static void measure_magnitudes(StabilityRun *run) {
     for (int n = 0; n < count; n++) {
         float positions[9];
         for (int i = 0; i < 3; i++) {
-            const double size = pow(10.0, random_real(&random, -3.0, 10.0));
+            const double size = random_magnitude(&random, -10, 33);
             for (int k = 0; k < 3; k++) {
                 positions[3 * i + k] = (float)random_real(&random, -size, size);
             }
@@ -284,16 +285,17 @@ static void measure_guard_band(StabilityRun *run) {
 enum { RINGS = 2, SECTORS = 3, STAR = RINGS * SECTORS + 2 };
 
 // Makes a closed surface around the point `eye`: two poles and rings of vertices between them, each
-// at a random distance from 1 m to `reach`.
-static uint32_t make_star(Random *random, double reach, const double eye[3],
-                          float positions[3 * STAR], uint32_t indices[6 * RINGS * SECTORS]) {
+// at a random distance from 1 m to 2^(reach + 1) m.
+static uint32_t make_star(Random *random, int reach, const double eye[3], float positions[3 * STAR],
+                          uint32_t indices[6 * RINGS * SECTORS]) {
     static const double pi = 3.14159265358979323846;
     for (int v = 0; v < STAR; v++) {
         const int ring = v < STAR - 2 ? v / SECTORS + 1 : (v - STAR + 2) * (RINGS + 1);
         const double polar = pi * ring / (RINGS + 1);
         const double angle = 2.0 * pi * (v % SECTORS) / SECTORS;
-        const double direction[3] = {sin(polar) * cos(angle), cos(polar), sin(polar) * sin(angle)};
-        const double distance = pow(reach, random_real(random, 0.0, 1.0));
+        const double direction[3] = {dip_sin(polar) * dip_cos(angle), dip_cos(polar),
+                                     dip_sin(polar) * dip_sin(angle)};
+        const double distance = random_magnitude(random, 0, reach);
         for (int k = 0; k < 3; k++) {
             positions[3 * v + k] = (float)(eye[k] + distance * direction[k]);
         }
@@ -327,7 +329,7 @@ static void measure_closed(StabilityRun *run) {
     for (int n = 0; n < count; n++) {
         DipTestScene scene;
         const int white = begin_scene(&scene);
-        const double reach = pow(10.0, random_real(&random, 0.0, 12.0));
+        const int reach = random_int(&random, 0, 39);
         float positions[3 * STAR];
         uint32_t indices[6 * RINGS * SECTORS];
         double length2 = 0.0;

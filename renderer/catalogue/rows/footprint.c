@@ -1,6 +1,7 @@
 // Rows about footprints of textures that are extremely long or have no width.
 #define DIP_LANES      1 // footprint_simd.h serves one instruction set at a time: here, scalar
 #define DIP_ISA_SUFFIX scalar
+#include "renderer/base/trig.h"
 #include "renderer/pipeline/texture/footprint_simd.h"
 #include "renderer/reference/internal/footprint.h"
 #include "renderer/catalogue/random.h"
@@ -23,12 +24,12 @@ typedef struct Ellipse {
 // Makes an ellipse. `direction` is the direction of its major axis in the texture; `roll` turns the
 // screen.
 static Ellipse make_ellipse(double major, double minor, double direction, double roll) {
-    const double along[2] = {major * cos(direction), major * sin(direction)};
-    const double across[2] = {-minor * sin(direction), minor * cos(direction)};
+    const double along[2] = {major * dip_cos(direction), major * dip_sin(direction)};
+    const double across[2] = {-minor * dip_sin(direction), minor * dip_cos(direction)};
     Ellipse e = {.major = major, .minor = minor};
     for (int i = 0; i < 2; i++) {
-        e.ddx[i] = along[i] * cos(roll) - across[i] * sin(roll);
-        e.ddy[i] = along[i] * sin(roll) + across[i] * cos(roll);
+        e.ddx[i] = along[i] * dip_cos(roll) - across[i] * dip_sin(roll);
+        e.ddy[i] = along[i] * dip_sin(roll) + across[i] * dip_cos(roll);
     }
     return e;
 }
@@ -68,6 +69,9 @@ static void check(StabilityRun *run, const Ellipse *e, int max, bool exact, Read
     const double lambda = fmin(fmax(log2(e->major) - log2(eta), 0.0), LEVELS - 1.0);
     const double probes = fmin(eta, fmax(1.0, e->major)) - 1e-4;
     const Reading found = read(e, max, exact);
+    if (read == read_fast) { // The reference computes with libm, whose last digits differ.
+        stability_keep(run, (double[]){found.level, found.probes}, 2);
+    }
     stability_error(run, found.level - lambda, "%s: level with axes %g and %g, af=%d", what,
                     e->major, e->minor, max);
     if (fabs(probes - rint(probes)) > 1e-3) {
@@ -91,7 +95,7 @@ static void measure_singular(StabilityRun *run) {
     Random random = {run->seed};
     const int count = stability_count(run, 1000, 100000, 5000000);
     for (int i = 0; i < count; i++) {
-        const double major = exp2(random_real(&random, -40.0, 20.0));
+        const double major = random_magnitude(&random, -40, 19);
         const double direction = random_real(&random, 0.0, pi);
         const Ellipse rolled =
             make_ellipse(major, 0.0, direction, random_real(&random, 0.0, 2.0 * pi));
@@ -104,8 +108,8 @@ static void measure_long(StabilityRun *run) {
     Random random = {run->seed};
     const int count = stability_count(run, 1000, 100000, 5000000);
     for (int i = 0; i < count; i++) {
-        const double major = exp2(random_real(&random, -10.0, 20.0));
-        const double minor = major * exp2(random_real(&random, -100.0, -4.1));
+        const double major = random_magnitude(&random, -10, 19);
+        const double minor = major * random_magnitude(&random, -100, -6);
         const double direction = random_real(&random, 0.0, pi);
         const Ellipse rolled =
             make_ellipse(major, minor, direction, random_real(&random, 0.0, 2.0 * pi));

@@ -1,5 +1,6 @@
 // Rows about the reference renderer's geometry. They compare it with a ray cast in 128-bit floating
 // point, on triangles whose coordinates differ by many orders of magnitude.
+#include "renderer/base/trig.h"
 #include "renderer/reference/internal/internal.h"
 #include "renderer/reference/internal/wide.h"
 #include "renderer/catalogue/random.h"
@@ -196,14 +197,10 @@ static void judge(Pair *pair, double x, double y) {
 
 // --- scenes --------------------------------------------------------------------------------------
 
-static double random_sign(Random *random) {
-    return random_int(random, 0, 1) ? 1.0 : -1.0;
-}
-
 // Returns a number of either sign whose binary exponent lies in low..high.
-static double random_magnitude(Random *random, int low, int high) {
-    return random_sign(random) *
-           ldexp(random_real(random, 1.0, 2.0), random_int(random, low, high));
+static double random_signed(Random *random, int low, int high) {
+    const double magnitude = random_magnitude(random, low, high);
+    return random_int(random, 0, 1) ? magnitude : -magnitude;
 }
 
 enum {
@@ -215,15 +212,15 @@ enum {
 static void make_corners(Random *random, int kind, double corners[3][3]) {
     const bool wider = kind >= KINDS / 2;
     const int low = wider ? -60 : -20, high = wider ? 60 : 30;
-    const double middle = ldexp(random_real(random, 1.0, 2.0), random_int(random, low, high));
+    const double middle = random_magnitude(random, low, high);
     const double seen[3] = {random_real(random, -0.6, 0.6) * middle,
                             random_real(random, -0.5, 0.5) * middle, -middle};
     for (int v = 0; v < 3; v++) {
-        const double size = random_magnitude(random, low, high);
+        const double size = random_signed(random, low, high);
         for (int i = 0; i < 3; i++) {
             switch (kind % (KINDS / 2)) {
             case 0: // every coordinate has a magnitude of its own
-                corners[v][i] = random_magnitude(random, low, high);
+                corners[v][i] = random_signed(random, low, high);
                 break;
             case 1: // every corner has a distance of its own
                 corners[v][i] = random_real(random, -1.0, 1.0) * size;
@@ -286,7 +283,7 @@ static void make_triangle(DipTestScene *scene, Random *random, int kind, double 
     if (random_int(random, 0, 1)) {
         turn_camera(random, &scene->pose, world);
     }
-    const double offset = random_int(random, 0, 2) ? 0.0 : random_magnitude(random, -10, 20);
+    const double offset = random_int(random, 0, 2) ? 0.0 : random_signed(random, -10, 20);
     const int material = dip_test_scene_add_material(scene, DIP_NO_TEXTURE);
     scene->materials[material].double_sided = random_int(random, 0, 3) > 0;
     const DipTestMesh mesh = dip_test_scene_add_mesh(scene, 3, 3, DIP_TEST_UV0, material);
@@ -311,12 +308,12 @@ static bool find_position(Random *random, const DipPose *pose, double corners[3]
                           double position[2]) {
     double p[3] = {0.0};
     for (int v = 0; v < 3; v++) {
-        const double weight = ldexp(random_real(random, 0.5, 1.0), random_int(random, -20, 0));
+        const double weight = random_magnitude(random, -21, -1);
         for (int i = 0; i < 3; i++) {
             p[i] += weight * corners[v][i];
         }
     }
-    const double half_height = tan(pose->fov_y_deg * (3.14159265358979323846 / 360.0));
+    const double half_height = dip_tan(pose->fov_y_deg * (3.14159265358979323846 / 360.0));
     position[0] = WIDTH * 0.5 + p[0] / -p[2] / half_height * (HEIGHT * 0.5);
     position[1] = HEIGHT * 0.5 - p[1] / -p[2] / half_height * (HEIGHT * 0.5);
     return p[2] < 0.0 && fabs(position[0] - WIDTH * 0.5) <= WIDTH * 0.5 &&
@@ -344,6 +341,7 @@ static void compare_random_triangles(StabilityRun *run, bool rounded) {
         make_triangle(&scene, &random, t % KINDS, corners);
         if (open_pair(run, &pair, &scene, rounded)) {
             compare_triangle(&pair, &random, corners);
+            stability_keep(run, (double[]){pair.judged, pair.covered}, 2);
             stability_error(run, pair.wrong, "triangle %d of seed %llu, kind %d", t,
                             (unsigned long long)run->seed, t % KINDS);
             covered += pair.covered;
@@ -404,8 +402,8 @@ static void measure_floor(StabilityRun *run) {
     for (int k = 0; k < count; k++) {
         dip_test_scene_begin(&scene);
         scene.def.near_m = nears[k];
-        scene.pose.orientation[2] = sin(0.1);
-        scene.pose.orientation[3] = cos(0.1);
+        scene.pose.orientation[2] = dip_sin(0.1);
+        scene.pose.orientation[3] = dip_cos(0.1);
         const int material = dip_test_scene_add_material(&scene, DIP_NO_TEXTURE);
         const float corner[3] = {-25.0f, -1.0f, 25.0f};
         const float right[3] = {50.0f, 0.0f, 0.0f};
@@ -463,21 +461,25 @@ static DipQuad size_of(DipQuad a) {
 // Keeps the error of a result, relative to the sum of the magnitudes of its terms.
 static void check_wide(StabilityRun *run, DipWide value, DipQuad expected, DipQuad terms,
                        const char *operation) {
+    stability_keep(run, (double[]){value.high, value.low}, 2);
     stability_error(run, (double)(size_of(quad_of(value) - expected) / terms), "%s", operation);
     stability_expect(run, value.high + value.low == value.high, "%s is not in lowest terms",
                      operation);
+}
+
+static DipWide random_wide(Random *random) {
+    const double high = random_signed(random, -100, 100);
+    return dip_wide_sum(high, random_signed(random, -160, 40));
 }
 
 static void measure_wide_numbers(StabilityRun *run) {
     Random random = {run->seed};
     const int count = stability_count(run, 2000, 100000, 10000000);
     for (int i = 0; i < count; i++) {
-        const DipWide a =
-            dip_wide_sum(random_magnitude(&random, -100, 100), random_magnitude(&random, -160, 40));
-        DipWide b =
-            dip_wide_sum(random_magnitude(&random, -100, 100), random_magnitude(&random, -160, 40));
+        const DipWide a = random_wide(&random);
+        DipWide b = random_wide(&random);
         if (i % 2) { // nearly cancels a
-            b = dip_wide_add_double(dip_wide_negate(a), random_magnitude(&random, -180, 0));
+            b = dip_wide_add_double(dip_wide_negate(a), random_signed(&random, -180, 0));
         }
         const DipQuad x = quad_of(a), y = quad_of(b), terms = size_of(x) + size_of(y);
         check_wide(run, dip_wide_add(a, b), x + y, terms, "sum");

@@ -1,4 +1,5 @@
 // Rows about surfaces: normal maps, vertex normals, alpha clipping and the sky.
+#include "renderer/base/trig.h"
 #include "renderer/catalogue/scenes.h"
 #include "renderer/catalogue/pictures.h"
 
@@ -78,10 +79,10 @@ typedef struct Case {
 
 static void turn_camera(const View *view, DipPose *pose) {
     const double x = view->turn_x_deg * pi / 360.0, z = view->turn_z_deg * pi / 360.0;
-    pose->orientation[0] = sin(x) * cos(z);
-    pose->orientation[1] = -sin(x) * sin(z);
-    pose->orientation[2] = cos(x) * sin(z);
-    pose->orientation[3] = cos(x) * cos(z);
+    pose->orientation[0] = dip_sin(x) * dip_cos(z);
+    pose->orientation[1] = -dip_sin(x) * dip_sin(z);
+    pose->orientation[2] = dip_cos(x) * dip_sin(z);
+    pose->orientation[3] = dip_cos(x) * dip_cos(z);
     pose->position_world[2] = view->distance_m;
 }
 

@@ -44,6 +44,11 @@ static bool same_pose(const DipPose *a, const DipPose *b) {
            memcmp(a->orientation, b->orientation, sizeof a->orientation) == 0;
 }
 
+static void keep_pose(StabilityRun *run, const DipPose *pose) {
+    stability_keep(run, pose->position_world, 3);
+    stability_keep(run, pose->orientation, 4);
+}
+
 // q and -q are the same rotation, so the signs of the keys must not matter.
 static void measure_signs(StabilityRun *run) {
     Random random = {run->seed};
@@ -65,6 +70,7 @@ static void measure_signs(StabilityRun *run) {
             DipPose b = {.fov_y_deg = 45.0};
             dip_campath_sample(aligned, time_ns, &a);
             dip_campath_sample(flipped, time_ns, &b);
+            keep_pose(run, &a);
             stability_expect(run, same_pose(&a, &b), "path %d at %lld ns", i, (long long)time_ns);
         }
         dip_campath_destroy(&aligned);
@@ -88,6 +94,7 @@ static void measure_key_times(StabilityRun *run) {
         for (int k = -KEYS; path && k <= 2 * KEYS; k++) {
             DipPose pose = {.fov_y_deg = 45.0};
             dip_campath_sample(path, k * period_ns, &pose);
+            keep_pose(run, &pose);
             const DipCamKey *key = &keys[(k + KEYS) % KEYS];
             for (int c = 0; c < 3; c++) {
                 stability_error(run, pose.position_world[c] - key->position_world[c],
@@ -118,6 +125,7 @@ static void measure_periods(StabilityRun *run) {
             DipPose b = {.fov_y_deg = 45.0};
             dip_campath_sample(path, into_ns, &a);
             dip_campath_sample(path, into_ns + turns * duration_ns, &b);
+            keep_pose(run, &a);
             stability_expect(run, same_pose(&a, &b), "path %d, %lld durations later", i,
                              (long long)turns);
         }
@@ -144,6 +152,7 @@ static void measure_steps(StabilityRun *run) {
             }
             dip_camtrack_pose(&track, frame * second_ns / 60, &stepped);
             dip_campath_sample(path, frame * second_ns / 60, &direct);
+            keep_pose(run, &direct);
             stability_expect(run, same_pose(&stepped, &direct), "path %d, frame %d", i, frame);
         }
         dip_campath_destroy(&path);
@@ -214,6 +223,7 @@ static void measure_malformed(StabilityRun *run) {
         for (int s = 0; path && s < 8; s++) {
             DipPose pose = {.fov_y_deg = 45.0};
             dip_campath_sample(path, s * second_ns / 3, &pose);
+            keep_pose(run, &pose);
             double length = 0.0;
             for (int c = 0; c < 4; c++) {
                 length += pose.orientation[c] * pose.orientation[c];

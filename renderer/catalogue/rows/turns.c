@@ -1,5 +1,6 @@
 // Rows about the rotation of a camera between two keys of its path.
 #include "campaths/campath.h"
+#include "renderer/base/trig.h"
 #include "renderer/catalogue/random.h"
 #include "renderer/catalogue/stability.h"
 
@@ -26,9 +27,9 @@ static void turn(Random *random, const double from[4], double angle, double to[4
         axis[i] = random_real(random, -1.0, 1.0);
         length2 += axis[i] * axis[i];
     }
-    double t[4] = {0.0, 0.0, 0.0, cos(angle / 2.0)};
+    double t[4] = {0.0, 0.0, 0.0, dip_cos(angle / 2.0)};
     for (int i = 0; i < 3; i++) {
-        t[i] = axis[i] / sqrt(length2) * sin(angle / 2.0);
+        t[i] = axis[i] / sqrt(length2) * dip_sin(angle / 2.0);
     }
     const double *f = from;
     to[0] = f[3] * t[0] + f[0] * t[3] + f[1] * t[2] - f[2] * t[1];
@@ -65,6 +66,7 @@ static void check_turn(StabilityRun *run, const double a[4], const double b[4], 
         DipPose pose = {.fov_y_deg = 45.0};
         dip_campath_sample(path, s * (second_ns / 8), &pose);
         const double *q = pose.orientation;
+        stability_keep(run, q, 4);
         const long double length = sqrtl((long double)q[0] * q[0] + (long double)q[1] * q[1] +
                                          (long double)q[2] * q[2] + (long double)q[3] * q[3]);
         const long double from = angle_between(a, q) - whole * s / 8.0L;
@@ -82,7 +84,7 @@ static void measure_small_turns(StabilityRun *run) {
     for (int i = 0; i < count; i++) {
         double a[4], b[4];
         random_rotation(&random, a);
-        turn(&random, a, exp2(random_real(&random, -60.0, 0.0)), b);
+        turn(&random, a, random_magnitude(&random, -60, -1), b);
         check_turn(run, a, b, "turn");
         check_turn(run, a, a, "no turn");
     }
@@ -95,7 +97,7 @@ static void measure_half_turns(StabilityRun *run) {
     for (int i = 0; i < count; i++) {
         double a[4], b[4];
         random_rotation(&random, a);
-        turn(&random, a, pi + (i % 2 ? 1.0 : -1.0) * exp2(random_real(&random, -60.0, 0.0)), b);
+        turn(&random, a, pi + (i % 2 ? 1.0 : -1.0) * random_magnitude(&random, -60, -1), b);
         check_turn(run, a, b, "half turn");
         for (int k = 0; k < 4; k++) {
             b[k] = -a[k];

@@ -1,5 +1,6 @@
 // Rows about water that reflects: the eye close to its surface, below it, and mirrored pictures of
 // extreme sizes.
+#include "renderer/base/trig.h"
 #include "renderer/catalogue/random.h"
 #include "renderer/catalogue/scenes.h"
 #include "renderer/catalogue/pictures.h"
@@ -39,8 +40,8 @@ static void make_room(DipTestScene *scene, int texture) {
 static void place_camera(DipTestScene *scene, Random *random, double above) {
     const double yaw = random_real(random, -1.6, 1.6); // half angles, in radians
     const double pitch = random_real(random, -0.4, 0.25);
-    const double turned[4] = {cos(yaw) * sin(pitch), sin(yaw) * cos(pitch), -sin(yaw) * sin(pitch),
-                              cos(yaw) * cos(pitch)};
+    const double turned[4] = {dip_cos(yaw) * dip_sin(pitch), dip_sin(yaw) * dip_cos(pitch),
+                              -dip_sin(yaw) * dip_sin(pitch), dip_cos(yaw) * dip_cos(pitch)};
     memcpy(scene->pose.orientation, turned, sizeof turned);
     scene->pose.position_world[0] = random_real(random, -2.5, 2.5);
     scene->pose.position_world[1] = level + above;
@@ -104,7 +105,7 @@ static void measure_below(StabilityRun *run) {
     const int count = stability_count(run, 4, 240, 8000);
     for (int n = 0; n < count; n++) {
         static DipTestScene water, plain;
-        const double below = pow(10.0, random_real(&random, -12.0, 0.0));
+        const double below = random_magnitude(&random, -40, -1);
         dip_test_scene_begin(&water);
         make_room(&water, dip_test_scene_add_texture(&water, DIP_TEST_CHECKER, 64, 64));
         add_water(&water);

@@ -77,6 +77,45 @@ static void rows_are_judged_by_their_greatest_error(void **state) {
     }
 }
 
+static void keep_numbers(StabilityRun *run) {
+    stability_keep(run, (double[]){0.5, -2.0}, 2);
+    stability_expect(run, true, "case %d", 0);
+}
+
+static void keep_another_number(StabilityRun *run) {
+    stability_keep(run, (double[]){0.5, nextafter(-2.0, 0.0)}, 2);
+    stability_expect(run, true, "case %d", 0);
+}
+
+static void keep_after_another_case(StabilityRun *run) {
+    stability_keep(run, (double[]){0.5, -2.0}, 2);
+    stability_expect(run, true, "case %d", 1);
+}
+
+// The hash of a row is of its cases' names and of its results, and of nothing else.
+static void hash_identifies_cases_and_results(void **state) {
+    (void)state;
+    static void (*const measures[4])(StabilityRun *) = {keep_numbers, keep_another_number,
+                                                        keep_after_another_case, keep_numbers};
+    char hex[4][DIP_HASH_HEX_SIZE];
+    StabilityRun run = {.depth = STABILITY_SHORT};
+    for (int i = 0; i < 4; i++) {
+        const StabilityRow row = {.measure = measures[i]};
+        assert_true(stability_measure(&row, &run));
+        dip_hash_hex(&run.hash, hex[i]);
+    }
+    DipHash expected = dip_hash_begin(0);
+    dip_hash_number(&expected, 0.5);
+    dip_hash_number(&expected, -2.0);
+    dip_hash_text(&expected, "case 0");
+    char text[DIP_HASH_HEX_SIZE];
+    dip_hash_hex(&expected, text);
+    assert_string_equal(hex[0], text);
+    assert_string_equal(hex[3], text);
+    assert_string_not_equal(hex[1], text);
+    assert_string_not_equal(hex[2], text);
+}
+
 static void deeper_runs_have_more_cases(void **state) {
     (void)state;
     static const StabilityDepth depths[3] = {STABILITY_SHORT, STABILITY_FULL, STABILITY_LONG};
@@ -89,6 +128,7 @@ static void deeper_runs_have_more_cases(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_are_judged_by_their_greatest_error),
+        cmocka_unit_test(hash_identifies_cases_and_results),
         cmocka_unit_test(deeper_runs_have_more_cases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
