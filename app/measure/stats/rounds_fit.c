@@ -19,7 +19,7 @@ static const double most_pooled_degrees = 12.0;
 
 // If each round draws only the frames that dip_rounds_deal gives it, the jackknife's variance is
 // too great by about this factor: a subject draws each frame in one unit only, so leaving out the
-// unit removes all times of these frames. test_rounds simulates such logs.
+// unit removes all times of these frames. test_rounds_simulated draws such logs.
 static const double excess_of_dealt_frames = 1.25;
 
 // --- order of the log ----------------------------------------------------------------------------
