@@ -343,6 +343,36 @@ static void effects_report_why_they_run_or_not(void **state) {
     dip_test_scene_free(&scene);
 }
 
+// The camera looks down on one of two ponds that are one mesh, then between them, where their box
+// has no water.
+static void small_ponds_are_bounded_by_their_triangles(void **state) {
+    (void)state;
+    static DipTestScene scene;
+    dip_test_scene_begin(&scene);
+    const int material = dip_test_scene_add_material(&scene, DIP_NO_TEXTURE);
+    scene.materials[material].surface = DIP_SURFACE_WATER;
+    const DipTestMesh ponds = dip_test_scene_add_mesh(&scene, 6, 6, 0, material);
+    for (uint32_t i = 0; i < 6; i++) {
+        const float side = i < 3 ? -8.0f : 8.0f;
+        ponds.positions[3 * i] = side + (float)(i % 3 == 2);
+        ponds.positions[3 * i + 1] = 0.0f;
+        ponds.positions[3 * i + 2] = side + (float)(i % 3 == 1);
+        ponds.indices[i] = i;
+    }
+    const DipReflectionDef reflection = {MIRRORED_WIDTH, MIRRORED_HEIGHT, 0.0, false, false};
+    Stage stage = open_stage(&scene.def, WIDTH, HEIGHT, &reflection, false);
+    DipPose pose = scene.pose;
+    pose.fov_y_deg = 40.0;
+    turn(&pose, 0.0, 90.0);
+    pose.position_world[1] = 3.0;
+    pose.position_world[0] = pose.position_world[2] = -8.0;
+    assert_string_equal(draw(&stage, &pose).effects.reflection.why, "water is in view");
+    pose.position_world[0] = pose.position_world[2] = 0.0;
+    assert_string_equal(draw(&stage, &pose).effects.reflection.why, "no water is in view");
+    stage_close(&stage);
+    dip_test_scene_free(&scene);
+}
+
 // A scene without water has no reflection to draw, even if all effects are forced.
 static void a_scene_without_water_costs_nothing(void **state) {
     (void)state;
@@ -466,6 +496,7 @@ int main(void) {
         cmocka_unit_test(pictures_are_continuous_as_the_eye_crosses_the_water),
         cmocka_unit_test(forcing_all_effects_changes_nothing),
         cmocka_unit_test(effects_report_why_they_run_or_not),
+        cmocka_unit_test(small_ponds_are_bounded_by_their_triangles),
         cmocka_unit_test(a_scene_without_water_costs_nothing),
         cmocka_unit_test(water_reflects_the_share_that_fresnel_gives),
         cmocka_unit_test(more_mirrored_pixels_approach_the_converged_picture),
