@@ -149,22 +149,42 @@ static void a_cut_jpeg_is_refused(void **state) {
     every_cut_is_refused(progressive_jpeg, sizeof progressive_jpeg);
 }
 
+static size_t find_huffman_table(void) {
+    size_t at = 0;
+    while (baseline_jpeg[at] != 0xff || baseline_jpeg[at + 1] != 0xc4) {
+        ++at;
+    }
+    return at;
+}
+
+static void expect_bad_tables(const uint8_t *bytes, size_t size_bytes) {
+    DipPicture picture;
+    DipError err = {0};
+    assert_false(dip_picture_decode(bytes, size_bytes, "jpeg", &picture, &err));
+    assert_int_equal(err.code, DIP_ERROR_FORMAT);
+    assert_non_null(strstr(err.message, "table of the JPEG file is malformed or missing"));
+}
+
 // Changes a byte of the JPEG file's first Huffman table. `offset` counts from the table's marker,
 // which is followed by two bytes of length, one byte that names the table, and the numbers of codes
 // of 1 to 16 bits.
 static void expect_bad_table(int offset, uint8_t value) {
     uint8_t bytes[sizeof baseline_jpeg];
     memcpy(bytes, baseline_jpeg, sizeof bytes);
-    size_t at = 0;
-    while (bytes[at] != 0xff || bytes[at + 1] != 0xc4) {
-        ++at;
-    }
-    bytes[at + (size_t)offset] = value;
-    DipPicture picture;
-    DipError err = {0};
-    assert_false(dip_picture_decode(bytes, sizeof bytes, "jpeg", &picture, &err));
-    assert_int_equal(err.code, DIP_ERROR_FORMAT);
-    assert_non_null(strstr(err.message, "table of the JPEG file is malformed or missing"));
+    bytes[find_huffman_table() + (size_t)offset] = value;
+    expect_bad_tables(bytes, sizeof bytes);
+}
+
+// Inserts an empty Huffman table before the first one. There are tables of the classes 0 and 1; the
+// class stands in the upper half of the byte `name`.
+static void expect_bad_name(uint8_t name) {
+    enum { TABLE_BYTES = 2 + 2 + 1 + 16 };
+    uint8_t bytes[sizeof baseline_jpeg + TABLE_BYTES] = {0};
+    const size_t at = find_huffman_table();
+    memcpy(bytes, baseline_jpeg, at);
+    memcpy(bytes + at, (const uint8_t[]){0xff, 0xc4, 0, TABLE_BYTES - 2, name}, 5);
+    memcpy(bytes + at + TABLE_BYTES, baseline_jpeg + at, sizeof baseline_jpeg - at);
+    expect_bad_tables(bytes, sizeof bytes);
 }
 
 // stb_image writes beyond a table of more than 256 codes, and uses undefined tables.
@@ -174,6 +194,8 @@ static void bad_tables_of_a_jpeg_are_refused(void **state) {
     expect_bad_table(4, 0x05);    // names a table that does not exist
     expect_bad_table(4 + 8, 255); // more codes than the segment holds
     expect_bad_table(3, 0xff);    // a segment that ends within a table
+    expect_bad_name(0x20);
+    expect_bad_name(0xf0);
 }
 
 static void sizes_out_of_range_are_refused(void **state) {
