@@ -82,11 +82,28 @@ static void begin_fact(DipForm *form, const char *term) {
     form->is_after_heading = false;
 }
 
+// Writes a text that a page may break behind each comma, so that lists of settings, which have no
+// blanks, are not broken within a word.
+static void put_breakable(FILE *out, char *text) {
+    while (*text) {
+        char *next = text + strcspn(text, ",");
+        next += *next == ',';
+        const char kept = *next;
+        *next = '\0';
+        dip_put_html(out, "%s", text);
+        *next = kept;
+        dip_put_markup(out, kept && kept != ' ' ? "<wbr>" : "");
+        text = next;
+    }
+}
+
 void dip_form_fact(DipForm *form, const char *term, const char *format, ...) {
     FORMAT_TEXT(text, format);
     begin_fact(form, term);
     if (form->is_page) {
-        dip_put_html(form->out, "<dd>%s</dd></div>\n", text);
+        dip_put_markup(form->out, "<dd>");
+        put_breakable(form->out, text);
+        dip_put_markup(form->out, "</dd></div>\n");
     } else {
         print_wrapped(form->out, text, TERM_WIDTH + 3);
     }

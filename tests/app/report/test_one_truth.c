@@ -58,6 +58,7 @@ static char *print(const DipCostReport *report) {
     return text;
 }
 
+// Returns the page of a report without the places where it may break a word, which are not text.
 static char *page_of(const DipCostReport *report) {
     char *text = calloc(1, 8 << 20);
     assert_non_null(text);
@@ -67,6 +68,9 @@ static char *page_of(const DipCostReport *report) {
     assert_true(fread(text, 1, (8 << 20) - 1, in) > 0);
     fclose(in);
     remove("one_truth.html");
+    for (char *at = text; (at = strstr(at, "<wbr>"));) {
+        memmove(at, at + strlen("<wbr>"), strlen(at + strlen("<wbr>")) + 1);
+    }
     return text;
 }
 
