@@ -193,6 +193,11 @@ static void a_design_tells_more_than_random_rows(void **state) {
         dip_design_choose(&problem.amounts[0][0], ROWS, TERMS, 2, CHOSEN, chosen);
         assert_int_equal(chosen[0], 5);
         assert_int_equal(chosen[1], 6);
+        // What lies behind the given rows says nothing.
+        int again[CHOSEN];
+        memcpy(again, chosen, sizeof again);
+        dip_design_choose(&problem.amounts[0][0], ROWS, TERMS, 2, CHOSEN, again);
+        assert_memory_equal(again, chosen, sizeof again);
         bool seen[ROWS] = {false};
         for (int i = 0; i < CHOSEN; i++) {
             assert_true(chosen[i] >= 0 && chosen[i] < ROWS && !seen[chosen[i]]);
