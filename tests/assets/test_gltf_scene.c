@@ -1,5 +1,6 @@
 // Tests lights, copies, light maps and materials of glTF scenes where Diptych leaves something out:
 // what is drawn instead, and the warning. A small file is changed in a few places at a time.
+#include "assets/gltf/reader.h"
 #include "assets/animation.h"
 #include "assets/model.h"
 #include "tests/assets/fixture.h"
@@ -328,15 +329,24 @@ static void a_light_map_that_is_not_there_gives_a_warning(void **state) {
     model = fixture_load(finish(), NULL, &warnings);
     assert_warned(&warnings, NULL, NULL);
     dip_model_destroy(&model);
-    start();
-    change("'name':'wall'", "'extras':{'lightmapped':1}");
-    change("'name':'Wall'", occlusion);
-    change("'index':0", "'index':0,'texCoord':2");
-    change("'materials'", pictures);
-    model = fixture_load(finish(), NULL, &warnings);
-    assert_warned(&warnings, "Wall",
-                  "mesh \"bricks\" has no texture coordinates 2, so the light map is ignored");
-    dip_model_destroy(&model);
+    // Sets of coordinates from 8 on are not read.
+    static const int sets[] = {2, DIP_GLTF_MAX_SETS, 1000};
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
+        char index[64], warning[100];
+        snprintf(index, sizeof index, "'index':0,'texCoord':%d", sets[i]);
+        snprintf(warning, sizeof warning,
+                 "mesh \"bricks\" has no texture coordinates %d, so the light map is ignored",
+                 sets[i]);
+        start();
+        change("'name':'wall'", "'extras':{'lightmapped':1}");
+        change("'name':'Wall'", occlusion);
+        change("'index':0", index);
+        change("'POSITION':0", "'POSITION':0,'COLOR_0':0");
+        change("'materials'", pictures);
+        model = fixture_load(finish(), NULL, &warnings);
+        assert_warned(&warnings, "Wall", warning);
+        dip_model_destroy(&model);
+    }
     start();
     change("'name':'Wall'", occlusion);
     change("'materials'", "'textures':[{}],'materials'");

@@ -460,6 +460,39 @@ static void a_frame_alone_is_the_frame_after_others(void **state) {
     dip_renderer_destroy(&renderer);
 }
 
+// Each frame of a history is shifted, so a pane beside it cannot share its geometry.
+static void a_history_beside_another_pane_is_the_frame_alone(void **state) {
+    (void)state;
+    static const char *const settings[2] = {"taa=history", "aa=none"};
+    DipRenderer *alone[2], *together[2];
+    DipFrame frames[2];
+    DipFrame *const panes[2] = {&frames[0], &frames[1]};
+    for (int order = 0; order < 2; order++) {
+        for (int p = 0; p < 2; p++) {
+            alone[p] = renderer_with(settings[p ^ order], NULL, dip_isa_best());
+            together[p] = renderer_with(settings[p ^ order], NULL, dip_isa_best());
+        }
+        for (int i = 0; i < 4; i++) {
+            DipPose pose = test_scene.pose;
+            pose.position_world[0] += 0.02 * i;
+            for (int p = 0; p < 2; p++) {
+                dip_renderer_set_frame_index(together[p], (uint64_t)i);
+            }
+            assert_true(dip_renderer_draw_frames(together, 2, scene, &pose, i, panes, NULL));
+            for (int p = 0; p < 2; p++) {
+                char expected[33], hash[33];
+                draw(alone[p], i, false, expected);
+                dip_frame_hash(&frames[p], hash);
+                assert_string_equal(hash, expected);
+            }
+        }
+        for (int p = 0; p < 2; p++) {
+            dip_renderer_destroy(&alone[p]);
+            dip_renderer_destroy(&together[p]);
+        }
+    }
+}
+
 static void frames_at_rest_are_the_mean_of_the_shifted_frames(void **state) {
     (void)state;
     static double sums[PIXELS * 3];
@@ -541,6 +574,7 @@ int main(void) {
         cmocka_unit_test(sizes_that_no_picture_has_are_refused),
         cmocka_unit_test(histories_begin_anew_where_frames_do_not_follow),
         cmocka_unit_test(a_frame_alone_is_the_frame_after_others),
+        cmocka_unit_test(a_history_beside_another_pane_is_the_frame_alone),
         cmocka_unit_test(frames_at_rest_are_the_mean_of_the_shifted_frames),
         cmocka_unit_test(settings_without_a_history_take_no_memory_for_it),
         cmocka_unit_test(frames_do_not_depend_on_threads_and_instruction_sets),
