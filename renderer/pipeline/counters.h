@@ -29,7 +29,7 @@ extern "C" {
     X(fragments_copied,                                                                            \
       "fragments copied from another pass that shaded them; not among those shaded")               \
     X(fragments_of_blocks, "shaded fragments of 4x4-pixel blocks that one draw fills alone")       \
-    X(shader_batches, "calls of fragment shaders: up to 64 fragments of one draw in one tile")     \
+    X(shader_batches, "calls of fragment shaders: up to 256 fragments of one draw in one tile")    \
     X(fragments_ordered, "fragments of ordered draws (state.h): one per pixel and triangle")       \
     X(samples_shown, "samples that show a surface: covered, nearest, kept by its clip map")        \
     X(pixels_resolved, "pixels whose samples show more than one fragment")                         \

@@ -23,7 +23,7 @@ extern "C" {
 
 enum {
     DIP_BATCH_ALIGN = 16,
-    DIP_FRAGMENT_BATCH = 64,
+    DIP_FRAGMENT_BATCH = 256,
     DIP_VERTEX_BATCH = 256,
     DIP_MAX_VARYINGS = 12,   // floats interpolated from the vertices to a fragment
     DIP_MAX_ATTRIBUTES = 16, // floats per vertex

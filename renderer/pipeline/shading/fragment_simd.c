@@ -12,6 +12,9 @@ enum { FEW_TRIANGLES = 4 };
 // Planes are prefetched for vectors in which more neighbouring lanes than these have different
 // triangles.
 enum { FEW_CHANGES = DIP_LANES * 3 / 4 };
+// They are prefetched for this many fragments at a time. The planes of a whole batch of small
+// triangles would fill the first-level cache.
+enum { PREFETCHED = 64 };
 
 enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 1 };
 
@@ -139,10 +142,12 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
                                         int varying_count, int value_only_count,
                                         DipFragmentBatch *batch) {
     batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
-    if (varying_count > 0) {
-        prefetch_planes(input, list->triangle, batch->count, varying_count);
-    }
     for (int i = 0; i < batch->count; i += DIP_LANES) {
+        const int left = batch->count - i;
+        if (varying_count > 0 && i % PREFETCHED == 0) {
+            prefetch_planes(input, list->triangle + i, left < PREFETCHED ? left : PREFETCHED,
+                            varying_count);
+        }
         const Vi position = vi_load((const int32_t *)list->position + i);
         const Vf x = target_coordinate(position & (DIP_TILE - 1),
                                        position >> DIP_POSITION_SUB_X & 255, input->x0);
