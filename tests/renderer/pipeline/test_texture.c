@@ -333,7 +333,7 @@ static void coordinates_that_are_not_numbers_stay_inside(void **state) {
                 batch.count = LANES;
                 for (int i = 0; i < LANES; i++) {
                     batch.varying[0][i] = awkward[i % 8];
-                    batch.varying[1][i] = awkward[i / 8];
+                    batch.varying[1][i] = awkward[i / 8 % 8];
                     batch.varying_dx[0][i] = awkward[(i + 3) % 8];
                     batch.varying_dy[1][i] = awkward[(i / 8 + filter) % 8];
                 }
