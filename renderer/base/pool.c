@@ -151,6 +151,24 @@ static int processor_count(void) {
     return online < 1 ? 1 : online > DIP_MAX_THREADS ? DIP_MAX_THREADS : (int)online;
 }
 
+// Starts a thread with the system's usual stack, but with at least LEAST_STACK_BYTES: tasks that
+// shade take up to 128 KB, which is all that some C libraries give to a thread.
+static bool start_thread(Worker *worker) {
+    enum { LEAST_STACK_BYTES = 1 << 20 };
+    pthread_attr_t attributes;
+    size_t stack_bytes = 0;
+    if (pthread_attr_init(&attributes) != 0) {
+        return false;
+    }
+    pthread_attr_getstacksize(&attributes, &stack_bytes);
+    if (stack_bytes < LEAST_STACK_BYTES) {
+        pthread_attr_setstacksize(&attributes, LEAST_STACK_BYTES);
+    }
+    const bool started = pthread_create(&worker->thread, &attributes, worker_main, worker) == 0;
+    pthread_attr_destroy(&attributes);
+    return started;
+}
+
 DipPool *dip_pool_create(int thread_count, DipError *err) {
     if (thread_count < 0 || thread_count > DIP_MAX_THREADS) {
         dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "threads",
@@ -171,7 +189,7 @@ DipPool *dip_pool_create(int thread_count, DipError *err) {
     pool->workers = calloc((size_t)pool->thread_count, sizeof *pool->workers);
     for (int i = 0; pool->workers && i < pool->thread_count - 1; i++) {
         pool->workers[i] = (Worker){.pool = pool, .index = i + 1};
-        if (pthread_create(&pool->workers[i].thread, NULL, worker_main, &pool->workers[i]) != 0) {
+        if (!start_thread(&pool->workers[i])) {
             break;
         }
         pool->started++;

@@ -18,7 +18,8 @@ typedef void (*DipTask)(void *context, int index, int worker);
 enum { DIP_MAX_THREADS = 256 };
 
 // Creates a pool. thread_count: 1..DIP_MAX_THREADS, or 0 for one thread per processor. The caller
-// of dip_pool_run counts as one of these threads, so a pool of 1 starts no thread. Fails with
+// of dip_pool_run counts as one of these threads, so a pool of 1 starts no thread. Threads have a
+// stack of at least 1 MB. The caller's thread should have at least 256 KB if it draws. Fails with
 // RANGE, MEMORY or RUNTIME (a thread could not be started).
 DIP_API DipPool *dip_pool_create(int thread_count, DipError *err);
 // Stops the threads and frees the pool. No dip_pool_run may be in progress. *pool may be NULL and
