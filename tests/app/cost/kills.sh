@@ -98,6 +98,12 @@ kill_often() {
     [ $((2 * landed)) -gt "$1" ] || fail "too few kills landed"
 }
 
+# has_round: whether the journal in folder `left` has a whole round. A line is longer than what the
+# program writes at a time, so its beginning may be there without its end, which sed and wc tell.
+has_round() {
+    [ "$(sed -n '/^round ./p' left/cost.state 2>/dev/null | wc -l)" -gt 0 ]
+}
+
 # leave_journal COMMAND...: runs the command in folder `left` until its journal has a round, and
 # kills it. A run that ends before the kill, on a busy machine, is repeated.
 leave_journal() {
@@ -105,12 +111,12 @@ leave_journal() {
         rm -rf left
         "$@" --out left --cache truths >left.out 2>left.err &
         for hundredth in $(seq 3000); do
-            grep -q '^round .' left/cost.state 2>/dev/null && break
+            has_round && break
             sleep 0.01
         done
         kill -KILL $!
         wait $! 2>/dev/null
-        [ ! -s left/cost.state ] || return
+        ! has_round || return
     done
     fail "there is no journal of an unfinished run"
 }
