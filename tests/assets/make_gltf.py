@@ -108,6 +108,17 @@ def strips():
     m.save("strips")
 
 
+def ridge():
+    """Two triangles that share an edge, without normals, a point, and a surface of old files."""
+    m = Model()
+    m.add("materials", {"name": "old", "extensions": {"KHR_materials_pbrSpecularGlossiness": {}}})
+    four = [0, 0, 0, 4, 0, 0, 0, 1, 1, 0, -2, 0]
+    m.node("ridge", m.mesh({"POSITION": m.accessor(four)}, material=0,
+                           indices=m.accessor([0, 1, 2, 1, 0, 3], "SCALAR", UBYTE)))
+    m.node("point", m.mesh({"POSITION": m.accessor([1, 2, 3])}, mode=0))
+    m.save("ridge")
+
+
 def sparse():
     """Vertex 2 is moved to (5, 6, 7); a second mesh has no values but the listed ones."""
     m = Model()
@@ -333,6 +344,6 @@ def plain():
     m.save("plain")
 
 
-for make in (strips, sparse, quantized, colours, materials, glossy, coordinates, instancing, shapes,
-             lamps, losses, plain):
+for make in (strips, ridge, sparse, quantized, colours, materials, glossy, coordinates, instancing,
+             shapes, lamps, losses, plain):
     make()

@@ -112,6 +112,23 @@ static void check_against(const char *model_path, const char *expected_name) {
     dip_animated_model_destroy(&model);
 }
 
+// Vertices 0 and 1 belong to two triangles with the cross products (0, -4, 4) and (0, 0, 8), vertex
+// 2 to the first one alone, and vertex 3 to the second one.
+static void missing_normals_are_means_weighted_by_area(void **state) {
+    (void)state;
+    const double both = sqrt(1.0 / 10.0), half = sqrt(0.5);
+    const double expected[4][3] = {
+        {0.0, -both, 3.0 * both}, {0.0, -both, 3.0 * both}, {0.0, -half, half}, {0.0, 0.0, 1.0}};
+    DipAnimatedModel *model =
+        dip_animated_model_load(fixture_data("gltf/ridge.gltf"), NULL, NULL, NULL);
+    const DipAnimatedMesh *mesh = dip_animated_model_def(model)->meshes;
+    assert_int_equal(mesh->vertex_count, 4);
+    for (int i = 0; i < 12; ++i) {
+        assert_float_equal(mesh->normals[i], expected[i / 3][i % 3], 1e-6);
+    }
+    dip_animated_model_destroy(&model);
+}
+
 static void gltf_moves_as_the_specification_says(void **state) {
     (void)state;
     check_against(fixture_data("motion.gltf"), "motion.txt");
@@ -682,6 +699,7 @@ int main(int argc, char **argv) {
         return dip_importer_run(argc - 2, argv + 2);
     }
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(missing_normals_are_means_weighted_by_area),
         cmocka_unit_test(gltf_moves_as_the_specification_says),
         cmocka_unit_test(gltf_has_its_materials_and_names),
         cmocka_unit_test(step_holds_its_value),

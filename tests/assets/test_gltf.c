@@ -91,6 +91,30 @@ static void strips_and_fans_become_triangles(void **state) {
     dip_model_destroy(&model);
 }
 
+// The cross products of the triangles are (0, -4, 4) and (0, 0, 8).
+static void missing_normals_are_those_of_the_triangles(void **state) {
+    (void)state;
+    static const double positions[6][3] = {{0, 0, 0}, {4, 0, 0}, {0, 1, 1},
+                                           {4, 0, 0}, {0, 0, 0}, {0, -2, 0}};
+    const double half = sqrt(0.5);
+    DipErrorList warnings = {0};
+    DipModel *model = load("ridge.gltf", &warnings);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    const DipMeshDef *mesh = mesh_of(def, "ridge");
+    assert_int_equal(mesh->index_count, 6);
+    for (uint32_t i = 0; i < 6; ++i) {
+        const double *at = positions[i];
+        assert_near_3(corner(mesh, mesh->positions, i, 3), at[0], at[1], at[2]);
+        assert_near_3(corner(mesh, mesh->normals, i, 3), 0.0, i < 3 ? -half : 0.0,
+                      i < 3 ? half : 1.0);
+    }
+    assert_int_equal(def->object_count, 1);
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.items[0].message, "1 points and lines are not drawn");
+    dip_error_list_free(&warnings);
+    dip_model_destroy(&model);
+}
+
 static void sparse_accessors_list_what_differs(void **state) {
     (void)state;
     DipModel *model = load("sparse.gltf", NULL);
@@ -286,6 +310,18 @@ static void materials_have_their_factors(void **state) {
     assert_near((double)material_of(def, "coat")->pbr->coat_roughness, 0.125);
     assert_false(material_of(def, "unlit")->lit);
     assert_null(material_of(def, "unlit")->pbr);
+    dip_model_destroy(&model);
+}
+
+// Without factors, a surface of old files is white and a perfect mirror.
+static void old_surfaces_have_default_factors(void **state) {
+    (void)state;
+    DipModel *model = load("ridge.gltf", NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_reflection(def, "ridge", 0.0, 0.0);
+    assert_near_3(material_of(def, "ridge")->base_colour_lin, 1.0, 1.0, 1.0);
+    assert_near_3(material_of(def, "ridge")->pbr->f0_lin, 1.0, 1.0, 1.0);
+    assert_near((double)material_of(def, "ridge")->pbr->f90, 1.0);
     dip_model_destroy(&model);
 }
 
@@ -714,6 +750,7 @@ int main(int argc, char **argv) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strips_and_fans_become_triangles),
+        cmocka_unit_test(missing_normals_are_those_of_the_triangles),
         cmocka_unit_test(sparse_accessors_list_what_differs),
         cmocka_unit_test(quantized_numbers_keep_their_meaning),
         cmocka_unit_test(vertex_colours_are_linear_and_clamped),
@@ -723,6 +760,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_skin_without_matrices_has_identities),
         cmocka_unit_test(every_node_with_a_light_is_a_light),
         cmocka_unit_test(materials_have_their_factors),
+        cmocka_unit_test(old_surfaces_have_default_factors),
         cmocka_unit_test(specular_pictures_are_drawn_as_their_means),
         cmocka_unit_test(materials_have_their_pictures),
         cmocka_unit_test(transparent_surfaces_are_blended),

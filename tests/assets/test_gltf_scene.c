@@ -503,6 +503,47 @@ static void values_that_the_file_does_not_hold_are_limited(void **state) {
                    "the sparse accessor of POSITION lists 0 of 89478485 values");
 }
 
+static void assert_values(const float *values, double x, double y, double z) {
+    const double expected[3] = {x, y, z};
+    for (int i = 0; i < 3; ++i) {
+        assert_float_equal(values[i], expected[i], 1e-6);
+    }
+}
+
+static void factors_out_of_range_are_limited(void **state) {
+    (void)state;
+    start();
+    change("'name':'Wall'",
+           "'pbrMetallicRoughness':{'baseColorFactor':[2,-1,3,5],'metallicFactor':7,"
+           "'roughnessFactor':-2},'emissiveFactor':[-1,2,1e30],'extensions':{"
+           "'KHR_materials_sheen':{'sheenColorFactor':[2,-1,3],'sheenRoughnessFactor':4},"
+           "'KHR_materials_clearcoat':{'clearcoatFactor':9,'clearcoatRoughnessFactor':-1},"
+           "'KHR_materials_specular':{'specularFactor':3,'specularColorFactor':[99,-1,0.5]}}");
+    DipModel *model = fixture_load(finish(), NULL, NULL);
+    const DipMaterialDef *material = dip_model_scene_def(model)->materials;
+    const DipPbrDef *pbr = material->pbr;
+    assert_values(material->base_colour_lin, 1.0, 0.0, 1.0);
+    assert_values((const float[]){pbr->metallic, pbr->roughness, pbr->f90}, 1.0, 0.0, 1.0);
+    assert_values(pbr->f0_lin, 1.0, 0.0, 0.02);
+    assert_values(pbr->sheen_lin, 1.0, 0.0, 1.0);
+    assert_values((const float[]){pbr->sheen_roughness, pbr->coat, pbr->coat_roughness}, 1.0, 1.0,
+                  0.0);
+    assert_values(pbr->emission_lin, 0.0, 2.0, 1e9);
+    dip_model_destroy(&model);
+    start();
+    change("'name':'Wall'", "'extensions':{'KHR_materials_pbrSpecularGlossiness':{"
+                            "'diffuseFactor':[2,-1,3,5],'specularFactor':[2,-1,0.5],"
+                            "'glossinessFactor':5}}");
+    model = fixture_load(finish(), NULL, NULL);
+    material = dip_model_scene_def(model)->materials;
+    assert_values(material->base_colour_lin, 1.0, 0.0, 1.0);
+    assert_values(material->pbr->f0_lin, 1.0, 0.0, 0.5);
+    assert_values(
+        (const float[]){material->pbr->metallic, material->pbr->roughness, material->pbr->f90}, 0.0,
+        0.0, 1.0);
+    dip_model_destroy(&model);
+}
+
 // Writes a file with a mesh that lists `part` `parts` times, and nodes that all show the mesh.
 static const char *write_many(const char *begin, const char *part, int parts, const char *end,
                               int nodes) {
@@ -564,6 +605,7 @@ int main(void) {
         cmocka_unit_test(a_missing_picture_of_an_animated_model_gives_a_warning),
         cmocka_unit_test(what_has_no_name_is_numbered),
         cmocka_unit_test(values_that_the_file_does_not_hold_are_limited),
+        cmocka_unit_test(factors_out_of_range_are_limited),
         cmocka_unit_test(objects_and_weights_are_limited),
     };
     return cmocka_run_group_tests(tests, fixture_open, fixture_close);

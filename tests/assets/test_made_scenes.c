@@ -136,6 +136,21 @@ static void surface_names_the_kind_of_surface(void **state) {
     dip_model_destroy(&model);
 }
 
+// --- meshes --------------------------------------------------------------------------------------
+
+static void nodes_share_a_mesh_of_one_material(void **state) {
+    (void)state;
+    MadeScene *made = made_scene(3);
+    made->mesh_numbers[2] = 0;
+    DipModel *model = load_with(made, NULL);
+    const DipSceneDef *def = dip_model_scene_def(model);
+    assert_int_equal(def->object_count, 3);
+    assert_int_equal(def->mesh_count, 2);
+    assert_int_equal(fixture_object(def, "node2")->mesh, fixture_object(def, "node0")->mesh);
+    assert_int_not_equal(fixture_object(def, "node1")->mesh, fixture_object(def, "node0")->mesh);
+    dip_model_destroy(&model);
+}
+
 // --- alpha ---------------------------------------------------------------------------------------
 
 // glTF draws a texel if the base alpha times its own alpha reaches the cutoff. So nothing is left
@@ -639,6 +654,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_mapped_is_true_for_any_number_but_zero),
         cmocka_unit_test(surface_names_the_kind_of_surface),
+        cmocka_unit_test(nodes_share_a_mesh_of_one_material),
         cmocka_unit_test(a_mask_compares_the_base_alpha_with_the_cutoff),
         cmocka_unit_test(blending_is_drawn_as_a_clip_map),
         cmocka_unit_test(an_opacity_of_zero_is_drawn_solid),

@@ -175,8 +175,8 @@ static void expect_bad_table(int offset, uint8_t value) {
     expect_bad_tables(bytes, sizeof bytes);
 }
 
-// Inserts an empty Huffman table before the first one. There are tables of the classes 0 and 1; the
-// class stands in the upper half of the byte `name`.
+// Inserts an empty Huffman table before the first one. There are four tables of each of the classes
+// 0 and 1. The class stands in the upper half of the byte `name`, and the table in its lower half.
 static void expect_bad_name(uint8_t name) {
     enum { TABLE_BYTES = 2 + 2 + 1 + 16 };
     uint8_t bytes[sizeof baseline_jpeg + TABLE_BYTES] = {0};
@@ -194,6 +194,8 @@ static void bad_tables_of_a_jpeg_are_refused(void **state) {
     expect_bad_table(4, 0x05);    // names a table that does not exist
     expect_bad_table(4 + 8, 255); // more codes than the segment holds
     expect_bad_table(3, 0xff);    // a segment that ends within a table
+    expect_bad_name(0x04);
+    expect_bad_name(0x14);
     expect_bad_name(0x20);
     expect_bad_name(0xf0);
 }

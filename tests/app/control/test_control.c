@@ -599,9 +599,22 @@ static void ten_thousand_random_lines_get_a_reply_each(void **state) {
     }
 }
 
+static void what_is_closed_can_be_closed_again(void **state) {
+    (void)state;
+    DipControl *none = NULL;
+    dip_control_close(&none);
+    assert_null(none);
+    connect_client(&client);
+    dip_control_poll(control);
+    dip_control_close(&control);
+    assert_null(control);
+    dip_control_close(&control);
+}
+
 int main(void) {
 #define CONTROL_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
     const struct CMUnitTest tests[] = {
+        CONTROL_TEST(what_is_closed_can_be_closed_again),
         CONTROL_TEST(every_line_gets_one_reply_in_order),
         CONTROL_TEST(refusals_of_the_target_are_errors_in_utf8),
         CONTROL_TEST(lines_may_arrive_in_pieces),

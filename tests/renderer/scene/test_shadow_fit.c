@@ -134,7 +134,45 @@ static void the_map_holds_all_that_is_in_view(void **state) {
     dip_test_scene_free(&made);
 }
 
+// A camera that looks away from the box sees no receiver.
+static void the_map_holds_the_whole_scene_if_nothing_is_in_view(void **state) {
+    (void)state;
+    static DipTestScene made;
+    DipError err = {0};
+    make_box(&made);
+    DipScene *scene = dip_scene_create(&made.def, NULL, &err);
+    assert_non_null(scene);
+    const DipPose pose = {
+        .position_world = {0.0, 0.0, -5.0}, .orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 40.0};
+    const DipView view = dip_view_make(&pose, (double)made.def.near_m, 1.0);
+    const DipPass pass = {.target = {.width = SIZE, .height = SIZE}};
+    const DipCullPlanes planes = dip_cull_pass_planes(&pass, view.world_to_clip);
+    const DipShadowFit fit = dip_shadow_fit(scene, &(DipShadowView){&view, &planes}, 1, MAP);
+    for (int corner = 0; corner < 8; corner++) {
+        for (int k = 0; k < 3; k++) {
+            double along = 0.0;
+            for (int i = 0; i < 3; i++) {
+                along += fit.axis[k][i] * (corner >> i & 1 ? half_size[i] : -half_size[i]);
+            }
+            const double at = along - fit.low[k];
+            if (k < 2) {
+                assert_true(at >= 2.0 * fit.texel[k] && at <= (MAP - 2.0) * fit.texel[k]);
+            } else {
+                assert_true(at > 0.0 && at < fit.range);
+            }
+        }
+    }
+    // The longest diagonal of the box is less than 4 m, and the map is not much larger.
+    for (int k = 0; k < 2; k++) {
+        assert_true(fit.texel[k] > 0.0 && fit.texel[k] * MAP < 2.0 * 4.0);
+    }
+    dip_scene_destroy(&scene);
+    dip_test_scene_free(&made);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_map_holds_all_that_is_in_view)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_map_holds_all_that_is_in_view),
+        cmocka_unit_test(the_map_holds_the_whole_scene_if_nothing_is_in_view)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
