@@ -132,6 +132,55 @@ static void lights_of_other_kinds_are_left_out(void **state) {
     }
 }
 
+static void assert_light(const char *json, float range_m, double inner_deg, double outer_deg) {
+    const DipModelOptions options = {.has_light_scale = true, .light_scale = 1.0};
+    char lights[200];
+    snprintf(lights, sizeof lights, "[{%s,'color':[0.5,1,0.25],'intensity':4}]", json);
+    use_lights(lights);
+    DipModel *model = fixture_load(finish(), &options, NULL);
+    const DipLightDef *light = dip_model_scene_def(model)->lighting->lights;
+    const bool fades = light->kind != DIP_LIGHT_DIRECTIONAL;
+    if (light->range_m != range_m) {
+        fail_msg("%s: %g", json, (double)light->range_m);
+    }
+    assert_float_equal(light->inner_deg, inner_deg, 1e-5);
+    assert_float_equal(light->outer_deg, outer_deg, 1e-5);
+    assert_true(light->attenuation[0] == (fades ? 0.0f : 1.0f) && light->attenuation[1] == 0.0f &&
+                light->attenuation[2] == (fades ? 1.0f : 0.0f));
+    assert_true(light->colour_lin[0] == 2.0f && light->colour_lin[1] == 4.0f &&
+                light->colour_lin[2] == 1.0f);
+    dip_model_destroy(&model);
+}
+
+// An outer angle of more than a quarter turn, and an inner one that is greater than the outer one,
+// are limited. pi/4 and 0 are the defaults.
+static void ranges_and_cones_are_limited(void **state) {
+    (void)state;
+    assert_light("'type':'point'", 0.0f, 0.0, 0.0);
+    assert_light("'type':'point','range':12.5", 12.5f, 0.0, 0.0);
+    assert_light("'type':'point','range':-1", 0.0f, 0.0, 0.0);
+    assert_light("'type':'point','range':1e30", 0.0f, 0.0, 0.0);
+    assert_light("'type':'directional','range':12.5", 0.0f, 0.0, 0.0);
+    assert_light("'type':'spot','range':2", 2.0f, 0.0, 45.0);
+    assert_light("'type':'spot','spot':{'outerConeAngle':2}", 0.0f, 0.0, 90.0);
+    assert_light("'type':'spot','spot':{'innerConeAngle':1}", 0.0f, 45.0, 45.0);
+    assert_light("'type':'spot','spot':{'innerConeAngle':-1}", 0.0f, 0.0, 45.0);
+    assert_light("'type':'spot','spot':{'innerConeAngle':0.5235987756,'outerConeAngle':"
+                 "1.0471975512}",
+                 0.0f, 30.0, 60.0);
+}
+
+static void the_first_of_no_animations_is_none(void **state) {
+    (void)state;
+    const DipModelOptions options = {.animation = DIP_MODEL_ANIMATION_FIRST};
+    DipErrorList warnings = {0};
+    start();
+    DipModel *model = fixture_load(finish(), &options, &warnings);
+    assert_int_equal(warnings.count, 0);
+    assert_null(dip_model_scene_def(model)->motion);
+    dip_model_destroy(&model);
+}
+
 static void malformed_lights_are_refused(void **state) {
     (void)state;
     use_lights("[]");
@@ -593,6 +642,8 @@ static void objects_and_weights_are_limited(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lights_of_other_kinds_are_left_out),
+        cmocka_unit_test(ranges_and_cones_are_limited),
+        cmocka_unit_test(the_first_of_no_animations_is_none),
         cmocka_unit_test(malformed_lights_are_refused),
         cmocka_unit_test(lights_that_an_animation_moves_stand_still),
         cmocka_unit_test(copies_need_as_many_values_of_each_kind),

@@ -109,7 +109,13 @@ static const char *take(LineClient *from) {
 
 static void connect_client(LineClient *to) {
     line_client_open(to, path);
-    assert_non_null(strstr(take(to), "\"diptych\":\"1.2.3\",\"protocol\":1,"));
+    assert_string_equal(take(to), "{\"diptych\":\"1.2.3\",\"protocol\":1,\"max_line_bytes\":65536,"
+                                  "\"requests\":[\"set\",\"apply\","
+                                  "\"path\",\"animation\",\"pause\",\"play\",\"seek\",\"scene\","
+                                  "\"size\",\"panel\",\"subscribe\","
+                                  "\"unsubscribe\",\"pick\",\"get\",\"screenshot\",\"quit\"],"
+                                  "\"topics\":[\"times\",\"errors\","
+                                  "\"settings\",\"prices\",\"picks\",\"notices\",\"polls\"]}");
 }
 
 static const char *ask(const char *line) {
