@@ -476,6 +476,38 @@ static void each_plane_culls_by_itself(void **state) {
     }
 }
 
+// The first pixel of the viewport begins at -1, and its last one ends at 1; +y is up. A small box
+// in the middle of a pixel is culled if, and only if, the pixel lies outside what the pass draws.
+static void what_a_pass_draws_bounds_the_view(void **state) {
+    (void)state;
+    const double unchanged[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static const DipTargetRegion rectangles[][2] = {
+        {{8, 16, 40, 56}, {8, 16, 40, 56}},
+        {{8, 16, 40, 56}, {12, 30, 33, 41}},
+        {{3, 5, 60, 61}, {3, 20, 9, 61}},
+        {{0, 0, 64, 64}, {10, 0, 11, 64}},
+    };
+    for (size_t i = 0; i < sizeof rectangles / sizeof *rectangles; i++) {
+        const DipTargetRegion *viewport = &rectangles[i][0], *region = &rectangles[i][1];
+        const DipPass pass = {
+            .target = {.rgba8 = NULL, .stride_bytes = 256, .width = 64, .height = 64},
+            .viewport = *viewport,
+            .region = *region};
+        const DipCullPlanes planes = dip_cull_pass_planes(&pass, unchanged);
+        const double width = viewport->x1 - viewport->x0, height = viewport->y1 - viewport->y0;
+        for (int pixel = 0; pixel < 64 * 64; pixel++) {
+            const int x = pixel % 64, y = pixel / 64;
+            const bool drawn = x / 8 >= region->x0 / 8 && x / 8 <= (region->x1 - 1) / 8 &&
+                               y / 8 >= region->y0 / 8 && y / 8 <= (region->y1 - 1) / 8;
+            const DipBox box = {.centre = {(float)(2.0 * (x + 0.5 - viewport->x0) / width - 1.0),
+                                           (float)(1.0 - 2.0 * (y + 0.5 - viewport->y0) / height),
+                                           0.5f},
+                                .extent = {0.001f, 0.001f, 0.001f}};
+            assert_int_equal(dip_cull_outside(&planes, &box), !drawn);
+        }
+    }
+}
+
 static void clipping_can_double_the_triangles(void **state) {
     (void)state;
     enum { COUNT = 40000 };
@@ -528,6 +560,7 @@ int main(void) {
         cmocka_unit_test(a_region_equals_the_same_part_of_the_whole_picture),
         cmocka_unit_test(culling_keeps_everything_visible),
         cmocka_unit_test(each_plane_culls_by_itself),
+        cmocka_unit_test(what_a_pass_draws_bounds_the_view),
         cmocka_unit_test(clipping_can_double_the_triangles),
         cmocka_unit_test(many_triangles_can_lie_in_many_tiles),
     };

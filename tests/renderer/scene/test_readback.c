@@ -236,8 +236,22 @@ static void test_bad_regions_are_refused(void **state) {
     stage_close(&stage);
 }
 
+// Rows of the region follow each other without gaps, and each pixel has 8 entries.
+static void the_index_counts_from_the_corner_of_the_region(void **state) {
+    (void)state;
+    const DipTargetRegion region = {3, 20, 8, 24};
+    size_t expected = 0;
+    for (int y = 20; y < 24; y++) {
+        for (int x = 3; x < 8; x++, expected += 8) {
+            assert_int_equal(dip_sample_index(&region, x, y), expected);
+        }
+    }
+    assert_int_equal(dip_sample_room(&region), expected);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_index_counts_from_the_corner_of_the_region),
         cmocka_unit_test(test_mean_of_samples_is_the_pixel),
         cmocka_unit_test(test_edges_have_samples_that_differ),
         cmocka_unit_test(test_samples_lie_at_published_positions),
