@@ -144,6 +144,9 @@ static void an_over_long_line_is_refused(void **context) {
     memset(text + head, '#', DIP_CAMPATH_MAX_LINE + 1);
     check_refused("an over-long line", text, (size_t)head + DIP_CAMPATH_MAX_LINE + 1,
                   DIP_ERROR_OVERSIZED, 3, "", "the line has 1001 bytes, accepted up to 1000");
+    // One byte less is accepted, so what is missing then are the keys.
+    check_refused("a line of the greatest length", text, (size_t)head + DIP_CAMPATH_MAX_LINE,
+                  DIP_ERROR_MISSING, 3, "keys", "x y z qx qy qz qw");
 }
 
 static void check_not_a_path(const char *name, const char *bytes, size_t size_bytes,
@@ -185,6 +188,16 @@ static void too_many_keys_are_refused(void **context) {
     assert_true(dip_campath_parse(text, size_bytes - each, "most", &path, NULL));
     assert_int_equal(dip_campath_info(path).key_count, DIP_CAMPATH_MAX_KEYS);
     dip_campath_destroy(&path);
+    DipCamKey *keys = calloc(DIP_CAMPATH_MAX_KEYS + 1, sizeof *keys);
+    for (size_t k = 0; k <= DIP_CAMPATH_MAX_KEYS; k++) {
+        keys[k].orientation[3] = 1.0;
+    }
+    DipError err = {0};
+    assert_true(dip_campath_create(keys, DIP_CAMPATH_MAX_KEYS, 1000000, &path, NULL));
+    dip_campath_destroy(&path);
+    assert_false(dip_campath_create(keys, DIP_CAMPATH_MAX_KEYS + 1, 1000000, &path, &err));
+    assert_int_equal(err.code, DIP_ERROR_RANGE);
+    free(keys);
     free(text);
 }
 

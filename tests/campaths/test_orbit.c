@@ -153,7 +153,7 @@ static void the_orbit_begins_in_front_and_turns_over_plus_x(void **context) {
     dip_campath_destroy(&path);
 }
 
-// A model of a single point is framed as a box of one metre about it.
+// A model of a single point is framed as a box of one metre about it, whatever its silhouette.
 static void the_orbit_of_a_point_is_that_of_a_box_of_one_metre(void **context) {
     (void)context;
     DipCamOrbitDef point = dip_campath_default_orbit();
@@ -163,16 +163,23 @@ static void the_orbit_of_a_point_is_that_of_a_box_of_one_metre(void **context) {
         box.min_world[i] = 2.0 * i - 0.5;
         box.max_world[i] = 2.0 * i + 0.5;
     }
-    DipCamPath *paths[2];
+    static const double radii[2] = {0.0, 0.0};
+    DipCamPath *paths[3];
     assert_true(dip_campath_orbit(&point, &paths[0], NULL));
     assert_true(dip_campath_orbit(&box, &paths[1], NULL));
+    point.radii = radii;
+    point.radius_count = 2;
+    assert_true(dip_campath_orbit(&point, &paths[2], NULL));
     for (int t = 0; t < 20; t++) {
         const DipPose a = sample(paths[0], t * SECOND);
-        const DipPose b = sample(paths[1], t * SECOND);
-        assert_memory_equal(&a, &b, sizeof a);
+        for (int i = 1; i < 3; i++) {
+            const DipPose b = sample(paths[i], t * SECOND);
+            assert_memory_equal(&a, &b, sizeof a);
+        }
     }
-    dip_campath_destroy(&paths[0]);
-    dip_campath_destroy(&paths[1]);
+    for (int i = 0; i < 3; i++) {
+        dip_campath_destroy(&paths[i]);
+    }
 }
 
 static void bad_orbits_and_keys_are_refused(void **context) {

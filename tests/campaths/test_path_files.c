@@ -68,6 +68,26 @@ static void the_text_format_is_as_documented(void **context) {
     dip_campath_destroy(&path);
 }
 
+// Whole seconds have no decimals, and nine decimals keep a nanosecond.
+static void a_period_is_written_with_the_decimals_that_it_needs(void **context) {
+    (void)context;
+    static const char *const periods[] = {"1", "10", "3600", "1.5", "0.000001", "10.000000009"};
+    for (size_t i = 0; i < sizeof periods / sizeof *periods; i++) {
+        char text[100], expected[100];
+        unsigned char bytes[200];
+        size_t size_bytes;
+        snprintf(text, sizeof text, "diptych-path 1\nperiod %s\n0 0 0 0 0 0 1\n", periods[i]);
+        snprintf(expected, sizeof expected, "\nperiod %s\n", periods[i]);
+        DipCamPath *path = parse(text);
+        assert_true(dip_campath_save_pth(path, "period.pth", NULL));
+        read_file("period.pth", bytes, sizeof bytes - 1, &size_bytes);
+        bytes[size_bytes] = '\0';
+        assert_non_null(strstr((char *)bytes, expected));
+        remove("period.pth");
+        dip_campath_destroy(&path);
+    }
+}
+
 static uint64_t state = 7;
 
 static uint64_t next_random(void) {
@@ -213,6 +233,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_binary_layout_is_as_documented),
         cmocka_unit_test(the_text_format_is_as_documented),
+        cmocka_unit_test(a_period_is_written_with_the_decimals_that_it_needs),
         cmocka_unit_test(converting_between_the_formats_keeps_every_bit),
         cmocka_unit_test(loading_a_period_keeps_every_nanosecond),
         cmocka_unit_test(a_comma_locale_changes_nothing),

@@ -247,19 +247,21 @@ static void materials_keep_their_names_and_light_maps(void **context) {
               "XFILE: a.x\nRES: 64x48\nMATERIAL_WATER: Pool *\nMATERIAL_WATER = a=b = c\n"
               "MATERIAL_LIGHTMAP: Wall\nMATERIAL_LIGHTMAP: A = B=C = sub/l=1.png ; comment\n"
               "MATERIAL_LIGHTMAP = D:E\t=\t/abs.png\nMATERIAL_LIGHTMAP: F=G.png\n"
-              "MATERIAL_LIGHTMAP: H= I.png\nMATERIAL_LIGHTMAP: J =K.png\n",
+              "MATERIAL_LIGHTMAP: H= I.png\nMATERIAL_LIGHTMAP: J =K.png\n"
+              "MATERIAL_LIGHTMAP: L =\n",
               &config, &faults);
     assert_int_equal(faults.count, 0);
     assert_int_equal(config.material_water.count, 2);
     check_material(&config.material_water, 0, "Pool *", NULL, 3);
     check_material(&config.material_water, 1, "a=b = c", NULL, 4);
-    assert_int_equal(config.material_lightmap.count, 6);
+    assert_int_equal(config.material_lightmap.count, 7);
     check_material(&config.material_lightmap, 0, "Wall", NULL, 5);
     check_material(&config.material_lightmap, 1, "A = B=C", "./sub/l=1.png", 6);
     check_material(&config.material_lightmap, 2, "D:E", "/abs.png", 7);
     check_material(&config.material_lightmap, 3, "F=G.png", NULL, 8);
     check_material(&config.material_lightmap, 4, "H= I.png", NULL, 9);
     check_material(&config.material_lightmap, 5, "J =K.png", NULL, 10);
+    check_material(&config.material_lightmap, 6, "L =", NULL, 11);
     assert_int_equal(config.material_sky.count, 0);
     dip_config_free(&config);
 }
@@ -306,6 +308,24 @@ static void lights_are_read(void **context) {
     assert_false(config.light_scale.automatic);
     assert_true(config.light_scale.factor == 0.25);
     assert_int_equal(config.ambient.rgb[2], 3);
+    dip_config_free(&config);
+}
+
+// Light falls off if any one of the three numbers of attenuation is above 0.
+static void each_number_of_attenuation_may_be_the_only_one(void **context) {
+    (void)context;
+    DipConfig config;
+    DipErrorList faults;
+    load_text("lights.ini",
+              SHORT "LIGHT: point at=1,2,3 attenuation=2,0,0\n"
+                    "LIGHT: point at=1,2,3 attenuation=0,3,0\n"
+                    "LIGHT: point at=1,2,3 attenuation=0,0,4\n",
+              &config, &faults);
+    assert_int_equal(config.light.count, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_near(config.light.items[i].attenuation, i == 0 ? 2.0 : 0.0, i == 1 ? 3.0 : 0.0,
+                    i == 2 ? 4.0 : 0.0);
+    }
     dip_config_free(&config);
 }
 
@@ -486,6 +506,7 @@ int main(void) {
         cmocka_unit_test(settings_and_optional_keys_are_read),
         cmocka_unit_test(materials_keep_their_names_and_light_maps),
         cmocka_unit_test(lights_are_read),
+        cmocka_unit_test(each_number_of_attenuation_may_be_the_only_one),
         cmocka_unit_test(there_are_at_most_64_lights),
         cmocka_unit_test(there_are_at_most_32_names_of_each_kind_of_material),
         cmocka_unit_test(a_name_has_at_most_63_bytes),

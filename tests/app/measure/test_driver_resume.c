@@ -71,6 +71,39 @@ static void resumed_repetitions_are_those_of_the_whole(void **state) {
     check_resume(&def);
 }
 
+// A visit of a path with one frame has one timed frame, so each known frame began at another time.
+// The first frame that the resumed measurement draws begins when the last known one began.
+static void the_clock_continues_where_the_last_visit_began(void **state) {
+    (void)state;
+    static DipTimed kept[MOST_TURNS];
+    const DipDriverDef def = {.subjects = 5,
+                              .base_of = bases,
+                              .block_subjects = 4,
+                              .starts = 1,
+                              .rounds = 8,
+                              .frames = 1,
+                              .seed = 3};
+    work_until_done(&def);
+    memcpy(kept, made.kept, sizeof kept);
+    for (int known = def.subjects; known < def.rounds * def.subjects; known += def.subjects) {
+        machine_tear_down(NULL);
+        machine_set_up(NULL);
+        begin(&def);
+        assert_true(kept[known - 1].begin_ns > kept[known - 2].begin_ns);
+        assert_true(dip_driver_resume(driver, kept, known));
+        assert_int_equal(work(NULL), DIP_DRIVER_DONE);
+        const DipTimes times = dip_driver_times(driver);
+        assert_int_equal(times.count, def.rounds * def.subjects);
+        assert_int_equal(times.list[known - 1].begin_ns, kept[known - 1].begin_ns);
+        assert_int_equal(times.list[known].begin_ns, kept[known - 1].begin_ns);
+        // From then on the clock runs as it did before.
+        for (int i = known + 1; i < times.count; i++) {
+            assert_int_equal(times.list[i].begin_ns - times.list[known].begin_ns,
+                             kept[i].begin_ns - kept[known].begin_ns);
+        }
+    }
+}
+
 // A journal of another seed, cut short, or forged is used up to where it differs.
 static void what_does_not_fit_is_drawn(void **state) {
     (void)state;
@@ -108,6 +141,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(resumed_rounds_are_those_of_the_whole),
         TEST(resumed_repetitions_are_those_of_the_whole),
+        TEST(the_clock_continues_where_the_last_visit_began),
         TEST(what_does_not_fit_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -65,6 +65,29 @@ static void an_estimate_says_how_likely_a_limit_holds(void **state) {
     assert_true(isnan(dip_estimate_chance_below(&unknown, 12.0, 0.0)));
 }
 
+// With one degree of freedom, Student's t is the distribution of Cauchy. The two errors 0.3 and 0.4
+// add up to 0.5.
+static void chances_follow_students_t(void **state) {
+    (void)state;
+    const DipEstimate one = dip_estimate_make(10.0, 0.3, 1.0);
+    for (int i = -8; i <= 8; i++) {
+        const double t = 0.5 * i;
+        const double chance = dip_estimate_chance_below(&one, 10.0 * exp(0.5 * t), 0.4);
+        assert_true(fabs(chance - (0.5 + atan(t) / DIP_PI)) < 1e-12);
+    }
+    const DipEstimate two = dip_estimate_make(10.0, 0.5, 2.0);
+    const double chance = dip_estimate_chance_below(&two, 10.0 * exp(0.5 * 1.5), 0.0);
+    assert_true(fabs(chance - (0.5 + 1.5 / (2.0 * sqrt(2.0 + 1.5 * 1.5)))) < 1e-12);
+    const DipEstimate wider = dip_estimate_widen(&one, 0.4);
+    assert_true(fabs(wider.log_error - 0.5) < 1e-15 && wider.degrees == 1.0 && wider.value == 10.0);
+    // No time is 0 or less; what is known of an impossible value is nothing.
+    assert_true(dip_estimate_chance_below(&one, 0.0, 0.4) == 0.0);
+    assert_true(dip_estimate_chance_below(&one, -1.0, 0.4) == 0.0);
+    const DipEstimate impossible = {0.0, NAN, NAN, 0.3, 1.0};
+    assert_true(isnan(dip_estimate_chance_below(&impossible, 1.0, 0.4)));
+    assert_true(isnan(dip_estimate_chance_below(&one, 1.0, NAN)));
+}
+
 static void a_percentile_is_linear_between_neighbours(void **state) {
     (void)state;
     double values[20];
@@ -80,6 +103,7 @@ int main(void) {
         cmocka_unit_test(student_has_the_published_quantiles),
         cmocka_unit_test(an_estimate_needs_a_finite_error_and_a_degree_of_freedom),
         cmocka_unit_test(an_estimate_says_how_likely_a_limit_holds),
+        cmocka_unit_test(chances_follow_students_t),
         cmocka_unit_test(a_percentile_is_linear_between_neighbours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

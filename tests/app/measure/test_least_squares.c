@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -210,6 +211,60 @@ static void a_design_tells_more_than_random_rows(void **state) {
     assert_true(better >= 98);
 }
 
+// Copies values to memory of exactly their size, so that the address sanitizer sees each read
+// beyond them.
+static double *exact_copy(const double *values, int count) {
+    double *copy = malloc((size_t)count * sizeof *copy);
+    assert_non_null(copy);
+    memcpy(copy, values, (size_t)count * sizeof *copy);
+    return copy;
+}
+
+// Each row of a diagonal problem has one term, whose price is the row's value / its amount, or 0 if
+// the value is negative. The element behind the prices and the one behind the chosen rows keep
+// their values. The greatest number of terms fills all arrays of the functions.
+static void nothing_beyond_the_terms_is_touched(void **state) {
+    (void)state;
+    enum { MOST = DIP_LEAST_SQUARES_MAX_TERMS };
+    static const int sizes[] = {1, 2, 7, MOST};
+    static DipNormalEquations equations;
+    static double matrix[MOST * MOST];
+    for (size_t size = 0; size < sizeof sizes / sizeof *sizes; size++) {
+        const int terms = sizes[size];
+        double scale[MOST], prices[MOST + 1];
+        int chosen[MOST + 1];
+        memset(matrix, 0, sizeof matrix);
+        for (int t = 0; t < terms; t++) {
+            scale[t] = matrix[t * terms + t] = 1.0 + t;
+        }
+        double *exact_scale = exact_copy(scale, terms);
+        dip_normal_equations_begin(&equations, terms, exact_scale);
+        free(exact_scale);
+        for (int t = 0; t < terms; t++) {
+            double *row = exact_copy(matrix + t * terms, terms);
+            dip_normal_equations_add(&equations, row, t % 3 == 2 ? -5.0 : 4.0 * (1.0 + t), 1.0);
+            free(row);
+        }
+        prices[terms] = 77.0;
+        dip_least_squares_nonnegative(&equations, prices);
+        for (int t = 0; t < terms; t++) {
+            assert_true(fabs(prices[t] - (t % 3 == 2 ? 0.0 : 4.0)) < 1e-12);
+        }
+        assert_true(prices[terms] == 77.0);
+        for (int count = 0; count <= terms; count += count < 2 || terms < 4 ? 1 : terms - 2) {
+            double *rows = exact_copy(matrix, terms * terms);
+            chosen[count] = 77;
+            dip_design_choose(rows, terms, terms, 0, count, chosen);
+            free(rows);
+            // All rows tell equally much, so the first ones are chosen.
+            for (int i = 0; i < count; i++) {
+                assert_int_equal(chosen[i], i);
+            }
+            assert_int_equal(chosen[count], 77);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_prices_are_found),
@@ -218,6 +273,7 @@ int main(void) {
         cmocka_unit_test(terms_that_cannot_be_told_apart_share_a_price),
         cmocka_unit_test(a_term_that_nearly_depends_on_others_costs_nothing),
         cmocka_unit_test(a_design_tells_more_than_random_rows),
+        cmocka_unit_test(nothing_beyond_the_terms_is_touched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
