@@ -274,7 +274,8 @@ VEC_INLINE Vf vf_abs(Vf a) {
     return vf_bits(vi_bits(a) & 0x7fffffff);
 }
 
-// Rounds down. Returns lanes unchanged if they are NaN, infinite, or at least 2^23 in magnitude.
+// Rounds down. The result has the sign of a, also where it is 0. Returns lanes unchanged if they
+// are NaN, infinite, or at least 2^23 in magnitude.
 VEC_INLINE Vf vf_floor(Vf a) {
 #if VEC_AVX512
     return (Vf)_mm512_roundscale_ps((__m512)a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -285,7 +286,8 @@ VEC_INLINE Vf vf_floor(Vf a) {
     const Vf inside = vf_select(small, a, vf_splat(0.0f));
     const Vf whole = vf_from_int(vi_from_float(inside));
     const Vf lower = vf_select(vf_lt(inside, whole), whole - 1.0f, whole);
-    return vf_select(small, lower, a);
+    const Vf with_sign = vf_bits(vi_bits(lower) | (vi_bits(a) & INT32_MIN));
+    return vf_select(small, with_sign, a);
 #endif
 }
 

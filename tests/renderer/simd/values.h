@@ -20,7 +20,6 @@ typedef enum Values {
     INT_FLOAT, // within the range of int32
     POSITIVE,  // positive normal numbers
     ANY_NAN,   // as FLOAT; as the kind of a result, every NaN equals every other
-    ANY_ZERO,  // as FLOAT; as the kind of a result, 0 equals -0
     LONG_MASK, // 0 or -1, in 64 bits, as all kinds that follow
     DOUBLE,
     WHOLE, // whole numbers below 2^51 in magnitude
