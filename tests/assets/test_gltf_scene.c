@@ -181,6 +181,15 @@ static void the_first_of_no_animations_is_none(void **state) {
     dip_model_destroy(&model);
 }
 
+static void a_node_that_is_listed_twice_is_drawn_once(void **state) {
+    (void)state;
+    start();
+    change("'nodes':[0,1]", "'nodes':[0,1,0]");
+    DipModel *model = fixture_load(finish(), NULL, NULL);
+    assert_int_equal(dip_model_scene_def(model)->object_count, 1);
+    dip_model_destroy(&model);
+}
+
 static void malformed_lights_are_refused(void **state) {
     (void)state;
     use_lights("[]");
@@ -644,6 +653,7 @@ int main(void) {
         cmocka_unit_test(lights_of_other_kinds_are_left_out),
         cmocka_unit_test(ranges_and_cones_are_limited),
         cmocka_unit_test(the_first_of_no_animations_is_none),
+        cmocka_unit_test(a_node_that_is_listed_twice_is_drawn_once),
         cmocka_unit_test(malformed_lights_are_refused),
         cmocka_unit_test(lights_that_an_animation_moves_stand_still),
         cmocka_unit_test(copies_need_as_many_values_of_each_kind),
