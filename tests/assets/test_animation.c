@@ -354,6 +354,36 @@ static void check_blend(const DipAnimatedModel *model, DipAnimatedPose *pose, in
     free(placed.normals);
 }
 
+// The shortest animation that moves: each of its two frames follows the other.
+static void two_key_frames_blend_into_each_other(void **state) {
+    (void)state;
+    enum { FRAME = 40 + 4 * 3, FRAMES_AT = 68 + 4 + 12, END = FRAMES_AT + 2 * FRAME + 4 };
+    static const int32_t header[17] = {0x32504449, 8, 1,  1,  FRAME, 0,         3,       1,  1,
+                                       1,          2, 68, 68, 72,    FRAMES_AT, END - 4, END};
+    static const uint16_t triangle[3] = {0, 1, 2};
+    static const float scale[3] = {1.0f, 0.5f, 0.25f};
+    static const uint8_t points[2][12] = {{0, 0, 0, 0, 8, 0, 0, 0, 0, 8, 0, 0},
+                                          {0, 0, 40, 1, 8, 16, 0, 2, 80, 8, 0, 3}};
+    uint8_t file[END] = {0}; // with an empty list of commands
+    memcpy(file, header, sizeof header);
+    memcpy(file + 72, triangle, sizeof triangle);
+    for (int i = 0; i < 2; ++i) {
+        uint8_t *frame = file + FRAMES_AT + FRAME * i;
+        memcpy(frame, scale, sizeof scale);
+        memcpy(frame + 24, i ? "walk2" : "walk1", 6);
+        memcpy(frame + 40, points[i], sizeof points[i]);
+    }
+    fixture_write("two.md2", file, sizeof file);
+    DipAnimatedModel *model = load(fixture_path("two.md2"));
+    DipAnimatedPose *pose = pose_of(model);
+    assert_int_equal(dip_animated_model_def(model)->animation_count, 1);
+    for (int i = -5; i < 50; ++i) {
+        check_blend(model, pose, 0, 0, 2, 0.0173 * i);
+    }
+    dip_animated_pose_destroy(&pose);
+    dip_animated_model_destroy(&model);
+}
+
 static void key_frames_blend_and_repeat(void **state) {
     (void)state;
     static const double times_s[] = {0,   0.05, 0.1,  0.3333, 0.85,  0.95,   0.99999,
@@ -707,6 +737,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(md2_frames_are_those_that_assimp_reads),
         cmocka_unit_test(every_md2_normal_is_that_of_assimp),
         cmocka_unit_test(key_frames_form_animations),
+        cmocka_unit_test(two_key_frames_blend_into_each_other),
         cmocka_unit_test(key_frames_blend_and_repeat),
         cmocka_unit_test(poses_have_the_same_bits_everywhere),
         cmocka_unit_test(malformed_md2_files_are_refused),

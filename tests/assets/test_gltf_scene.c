@@ -450,6 +450,41 @@ static void what_a_light_map_replaces_gives_a_warning(void **state) {
     }
 }
 
+// Glass bends no light with a normal map, unless it has a light map. Here the light map is the
+// first picture of the file, which another surface uses too.
+static void the_scale_of_a_normal_map_beside_a_light_map_gives_a_warning(void **state) {
+    (void)state;
+    const DipMaterialRule rule = {.mark = DIP_MARK_LIGHT_MAP, .pattern = "Wall*"};
+    const DipModelOptions options = {.normal_maps = true, .rules = &rule, .rule_count = 1};
+    DipErrorList warnings = {0};
+    for (int scaled = 0; scaled < 2; ++scaled) {
+        start();
+        change("{'name':'Wall'}",
+               scaled ? "{'name':'Wall 2','occlusionTexture':{'index':0}},{'name':'Wall',"
+                        "'occlusionTexture':{'index':0},"
+                        "'normalTexture':{'index':1,'scale':0.5}}"
+                      : "{'name':'Wall 2','occlusionTexture':{'index':0}},{'name':'Wall',"
+                        "'occlusionTexture':{'index':0},"
+                        "'normalTexture':{'index':1,'scale':1}}");
+        change("'material':0}",
+               "'material':0},{'attributes':{'POSITION':0,'TEXCOORD_0':1},'material':1}");
+        change("'materials'", "'textures':[{'source':0},{'source':1}],'images':[{'uri':"
+                              "'picture.png'},{'uri':'normal.png'}],'materials'");
+        change("'name':'wall'", "'extras':{'surface':'glass'}");
+        fixture_write("normal.png", fixture_png, sizeof fixture_png);
+        DipModel *model = fixture_load(finish(), &options, &warnings);
+        const DipSceneDef *def = dip_model_scene_def(model);
+        assert_int_equal(def->material_count, 2);
+        assert_int_equal(def->materials[0].light_map, def->materials[1].light_map);
+        assert_true(def->materials[1].normal_map >= 0);
+        assert_warned(&warnings, "Wall",
+                      scaled ? "the scale of a normal map is not drawn on surfaces with a light "
+                               "map or with the keys surface or lightmapped"
+                             : NULL);
+        dip_model_destroy(&model);
+    }
+}
+
 // --- animated models -----------------------------------------------------------------------------
 
 static DipAnimatedModel *load_animated(DipErrorList *warnings) {
@@ -661,6 +696,7 @@ int main(void) {
         cmocka_unit_test(the_picture_of_a_rule_is_a_light_map),
         cmocka_unit_test(the_occlusion_picture_is_a_light_map),
         cmocka_unit_test(a_light_map_that_is_not_there_gives_a_warning),
+        cmocka_unit_test(the_scale_of_a_normal_map_beside_a_light_map_gives_a_warning),
         cmocka_unit_test(what_a_light_map_replaces_gives_a_warning),
         cmocka_unit_test(blended_surfaces_of_animated_models_are_clipped),
         cmocka_unit_test(a_missing_picture_of_an_animated_model_gives_a_warning),
