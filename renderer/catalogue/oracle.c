@@ -107,27 +107,32 @@ typedef struct Maker {
 // Returns a random point in the region or up to `margin` pixels around it.
 static Point any_point(const Maker *maker, int margin) {
     const DipOracleRegion *r = maker->region;
-    return (Point){
-        random_int(maker->random, (r->x0 - margin) * 256, (r->x0 + r->width + margin) * 256),
-        random_int(maker->random, (r->y0 - margin) * 256, (r->y0 + r->height + margin) * 256)};
+    Point p;
+    p.x = random_int(maker->random, (r->x0 - margin) * 256, (r->x0 + r->width + margin) * 256);
+    p.y = random_int(maker->random, (r->y0 - margin) * 256, (r->y0 + r->height + margin) * 256);
+    return p;
 }
 
 static Point sample_point(const Maker *maker) {
     const DipOracleRegion *r = maker->region;
     const int s = random_int(maker->random, 0, maker->pattern->count - 1);
-    return (Point){
-        random_int(maker->random, r->x0, r->x0 + r->width - 1) * 256 + maker->pattern->x[s],
-        random_int(maker->random, r->y0, r->y0 + r->height - 1) * 256 + maker->pattern->y[s]};
+    Point p;
+    p.x = random_int(maker->random, r->x0, r->x0 + r->width - 1) * 256 + maker->pattern->x[s];
+    p.y = random_int(maker->random, r->y0, r->y0 + r->height - 1) * 256 + maker->pattern->y[s];
+    return p;
 }
 
 static Point near_point(const Maker *maker, Point p, int reach) {
-    return (Point){p.x + random_int(maker->random, -reach, reach),
-                   p.y + random_int(maker->random, -reach, reach)};
+    p.x += random_int(maker->random, -reach, reach);
+    p.y += random_int(maker->random, -reach, reach);
+    return p;
 }
 
 static Point far_point(const Maker *maker) {
     const int32_t limit = maker->limit;
-    Point p = {random_int(maker->random, -limit, limit), random_int(maker->random, -limit, limit)};
+    Point p;
+    p.x = random_int(maker->random, -limit, limit);
+    p.y = random_int(maker->random, -limit, limit);
     switch (random_int(maker->random, 0, 3)) {
     case 0:
         p.x = random_int(maker->random, 0, 1) ? limit : -limit;

@@ -108,8 +108,9 @@ static void make_soup(DipTestScene *scene) {
     Random random = {7};
     for (int t = 0; t < TRIANGLES; t++) {
         const double depth = random_real(&random, -9.0, -1.0);
-        const double centre[3] = {random_real(&random, 0.8, -0.8) * depth,
-                                  random_real(&random, 0.6, -0.6) * depth, depth};
+        double centre[3] = {0.0, 0.0, depth};
+        centre[0] = random_real(&random, 0.8, -0.8) * depth;
+        centre[1] = random_real(&random, 0.6, -0.6) * depth;
         for (int v = 3 * t; v < 3 * t + 3; v++) {
             for (int k = 0; k < 3; k++) {
                 mesh.positions[3 * v + k] = (float)(centre[k] + random_real(&random, -0.6, 0.6));
@@ -134,11 +135,13 @@ static void make_slivers(DipTestScene *scene) {
     for (int t = 0; t < TRIANGLES; t++) {
         const double z = random_real(&random, -6.0, -2.0);
         const double angle = random_real(&random, 0.0, 2.0 * pi);
-        // The exponent is drawn first on every platform: C leaves the order of arguments open.
+        // Numbers are drawn one by one, since C leaves their order within an expression open.
         const int exponent = random_int(&random, -16, -3);
         const double width = ldexp(random_real(&random, 0.5, 1.0), exponent);
         const double along[2] = {dip_cos(angle) * 1.5, dip_sin(angle) * 1.5};
-        const double from[2] = {random_real(&random, -2.0, 2.0), random_real(&random, -1.5, 1.5)};
+        double from[2];
+        from[0] = random_real(&random, -2.0, 2.0);
+        from[1] = random_real(&random, -1.5, 1.5);
         const double ends[3][2] = {{from[0], from[1]},
                                    {from[0] + along[0], from[1] + along[1]},
                                    {from[0] + along[0] * 0.4 - along[1] * width,

@@ -173,8 +173,8 @@ static void measure_mirrored_edges(StabilityRun *run) {
         scene.materials[water].surface = DIP_SURFACE_WATER;
         dip_test_scene_add_quad(&scene, water, (const float[]){-500, 0, 500},
                                 (const float[]){1000, 0, 0}, (const float[]){0, 0, -1000}, 1, 1);
-        scene.reflection = (DipReflectionDef){.width = random_int(&random, 1, 9),
-                                              .height = random_int(&random, 1, 9)};
+        scene.reflection = (DipReflectionDef){.width = random_int(&random, 1, 9)};
+        scene.reflection.height = random_int(&random, 1, 9);
         scene.pose.position_world[1] = 2.0;
         set_pitch(&scene, pitch);
         compare_water(run, &scene, pitch, 1);

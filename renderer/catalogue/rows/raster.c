@@ -435,10 +435,11 @@ static void measure_decals(StabilityRun *run) {
     for (int i = 0; i < count; i++) {
         const double z = -2.0 - random_real(&random, 0.0, 10.0);
         const double origin[3] = {-4.0, -2.0, z};
-        const double bend[4] = {random_real(&random, -1.0, 1.0), random_real(&random, -8.0, 1.0),
-                                random_real(&random, -1.0, 1.0), random_real(&random, -8.0, 1.0)};
-        const double a[3] = {8.0, bend[0], bend[1]};
-        const double b[3] = {bend[2], 4.0, bend[3]};
+        double a[3] = {8.0}, b[3] = {0.0, 4.0};
+        a[1] = random_real(&random, -1.0, 1.0);
+        a[2] = random_real(&random, -8.0, 1.0);
+        b[0] = random_real(&random, -1.0, 1.0);
+        b[2] = random_real(&random, -8.0, 1.0);
         const double lift = decal_lift(origin, a, b);
         if (lift > 0.0) {
             const double shown = count_shown_surface(run, &random, origin, a, b, lift);
@@ -565,8 +566,9 @@ static void add_slivers(DipTestScene *scene, int material, Random random, double
     const DipSamplePattern *pattern = dip_sample_pattern(8);
     const DipTestMesh mesh = dip_test_scene_add_mesh(scene, 3 * SLIVERS, 3 * SLIVERS, 0, material);
     for (uint32_t i = 0; i < SLIVERS; i++) {
-        const int y = random_int(&random, 0, SIDE - 1) * STEPS +
-                      pattern->y[random_int(&random, 0, pattern->count - 1)];
+        const int row = random_int(&random, 0, SIDE - 1);
+        const int sample = random_int(&random, 0, pattern->count - 1);
+        const int y = row * STEPS + pattern->y[sample];
         const int left = random_int(&random, -SIDE, SIDE / 2) * STEPS;
         const int right = left + random_int(&random, 1, 2 * SIDE) * STEPS;
         const int lower = random_int(&random, left, right);

@@ -213,8 +213,9 @@ static void make_corners(Random *random, int kind, double corners[3][3]) {
     const bool wider = kind >= KINDS / 2;
     const int low = wider ? -60 : -20, high = wider ? 60 : 30;
     const double middle = random_magnitude(random, low, high);
-    const double seen[3] = {random_real(random, -0.6, 0.6) * middle,
-                            random_real(random, -0.5, 0.5) * middle, -middle};
+    double seen[3] = {0.0, 0.0, -middle};
+    seen[0] = random_real(random, -0.6, 0.6) * middle;
+    seen[1] = random_real(random, -0.5, 0.5) * middle;
     for (int v = 0; v < 3; v++) {
         const double size = random_signed(random, low, high);
         for (int i = 0; i < 3; i++) {
@@ -323,7 +324,9 @@ static bool find_position(Random *random, const DipPose *pose, double corners[3]
 // Compares one triangle at random positions of the picture and at random points of the triangle.
 static void compare_triangle(Pair *pair, Random *random, double corners[3][3]) {
     for (int i = 0; i < POSITIONS; i++) {
-        double position[2] = {random_real(random, 0.0, WIDTH), random_real(random, 0.0, HEIGHT)};
+        double position[2];
+        position[0] = random_real(random, 0.0, WIDTH);
+        position[1] = random_real(random, 0.0, HEIGHT);
         if (i % 2 == 0 || find_position(random, &pair->scene->pose, corners, position)) {
             judge(pair, position[0], position[1]);
         }

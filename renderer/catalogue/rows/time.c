@@ -212,8 +212,8 @@ static void measure_malformed(StabilityRun *run) {
         const int changes = random_int(&random, 1, 4);
         for (int c = 0; c < changes; c++) {
             static const char bytes[] = "0123456789.eE+-# \n\t\r\0nanif\xff";
-            text[random_int(&random, 0, (int)size - 1)] =
-                bytes[random_int(&random, 0, (int)sizeof bytes - 2)];
+            const char byte = bytes[random_int(&random, 0, (int)sizeof bytes - 2)];
+            text[random_int(&random, 0, (int)size - 1)] = byte;
         }
         size = i % 5 ? size : (size_t)random_int(&random, 0, (int)size);
         DipError err = {0};
