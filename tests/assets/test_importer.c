@@ -463,6 +463,21 @@ static void nobody_else_can_start_an_importer(void **state) {
     assert_int_equal(dip_importer_run(11, words), DIP_IMPORTER_MISUSED);
 }
 
+// Each list is an allocation of its own, so that the address sanitizer sees a read behind it.
+static void lists_of_arguments_are_read_to_their_ends_only(void **state) {
+    (void)state;
+    static char one[] = "1";
+    for (int count = 1; count <= IMPORT_ARGUMENT_COUNT + 1; ++count) {
+        char **arguments = malloc((size_t)count * sizeof *arguments);
+        assert_non_null(arguments);
+        for (int i = 0; i < count; ++i) {
+            arguments[i] = one;
+        }
+        assert_int_equal(dip_importer_run(count, arguments), DIP_IMPORTER_MISUSED);
+        free(arguments);
+    }
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) {
         return misbehave(argv[1], argc - 2, argv + 2);
@@ -484,6 +499,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(textures_of_every_size_are_imported),
         cmocka_unit_test(a_texture_beyond_the_limit_is_left_out_with_a_warning),
         cmocka_unit_test(nobody_else_can_start_an_importer),
+        cmocka_unit_test(lists_of_arguments_are_read_to_their_ends_only),
     };
     return cmocka_run_group_tests_name("importer", tests, fixture_open, fixture_close);
 }

@@ -71,6 +71,9 @@ MISREAD(values_for_two_probes, (values_only(pass, draw, sampler, reading), sampl
 MISREAD(beyond, reading->u_varying = 2)
 MISREAD(far_beyond, reading->u_varying = INT32_MAX)
 MISREAD(negative, reading->u_varying = -1)
+MISREAD(last_computed,
+        (draw->computed_varying_count = 2, reading->u_varying = DIP_MAX_VARYINGS - 1))
+MISREAD(behind_computed, (draw->computed_varying_count = 2, reading->u_varying = DIP_MAX_VARYINGS))
 MISREAD(no_samplers, draw->samplers = NULL)
 MISREAD(no_texture, sampler->texture = NULL)
 MISREAD(much_anisotropy, sampler->max_anisotropy = 17)
@@ -91,6 +94,8 @@ static const BadReading bad_readings[] = {
     {"varying_count", DIP_ERROR_RANGE, beyond},
     {"varying_count", DIP_ERROR_RANGE, far_beyond},
     {"varying_count", DIP_ERROR_RANGE, negative},
+    {"varying_count", DIP_ERROR_RANGE, last_computed},
+    {"varying_count", DIP_ERROR_RANGE, behind_computed},
     {"samplers", DIP_ERROR_MISSING, no_samplers},
     {"samplers", DIP_ERROR_MISSING, no_texture},
     {"samplers", DIP_ERROR_RANGE, much_anisotropy},
