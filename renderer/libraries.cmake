@@ -68,10 +68,13 @@ function(dip_add_collection name)
     dip_install_pkg_config(${name} "" "${ARGN}" "")
 endfunction()
 
-# dip_add_objects(<name> <object target>): adds further objects to both forms of dip_<name>.
+# dip_add_objects(<name> <object target>): adds further objects to dip_<name>, and to its shared form if it
+# has one.
 function(dip_add_objects name objects)
     target_sources(dip_${name} PRIVATE $<TARGET_OBJECTS:${objects}>)
-    target_sources(dip_${name}_shared PRIVATE $<TARGET_OBJECTS:${objects}>)
+    if(TARGET dip_${name}_shared)
+        target_sources(dip_${name}_shared PRIVATE $<TARGET_OBJECTS:${objects}>)
+    endif()
 endfunction()
 
 # dip_install_sources(<component> <folder> <files>): installs sources. In this tree, a header is

@@ -1,6 +1,6 @@
 // A small random generator for tests. Tests seed it, so that a failure can be repeated. Do not draw
-// two numbers among the arguments of one call: C leaves open which of them comes first, and the
-// cases would depend on the compiler.
+// two numbers in one expression, call or list of initial values: C leaves open which of them comes
+// first, and the cases would depend on the compiler.
 #ifndef DIP_RENDERER_CATALOGUE_RANDOM_H
 #define DIP_RENDERER_CATALOGUE_RANDOM_H
 
