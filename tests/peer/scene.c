@@ -124,6 +124,28 @@ static bool open_synthetic(DipPeerScene *scene, const DipPeerOptions *options, D
 
 // -----------------------------------------------------------------------------------------------
 
+// Leaves out of the scene what the peers do not draw: surfaces that show what lies behind them are
+// drawn as opaque ones, and the fixed light shines instead of the scene's lights. Fails with MEMORY.
+static bool make_plain(DipPeerScene *scene, DipError *err) {
+    DipSceneDef *def = &scene->def;
+    const size_t count = (size_t)def->material_count;
+    scene->materials = calloc(count + 1, sizeof *scene->materials);
+    if (!scene->materials) {
+        return dip_error_set(err, DIP_ERROR_MEMORY, "", 0, "scene", "out of memory");
+    }
+    for (size_t i = 0; i < count; i++) {
+        DipMaterialDef *material = &scene->materials[i];
+        *material = def->materials[i];
+        material->transmission = 0.0f;
+        if (material->surface == DIP_SURFACE_BLENDED) {
+            material->surface = DIP_SURFACE_OPAQUE;
+        }
+    }
+    def->materials = scene->materials;
+    def->lighting = NULL;
+    return true;
+}
+
 static uint64_t count_triangles(const DipSceneDef *def) {
     uint64_t count = 0;
     for (int i = 0; i < def->object_count; i++) {
@@ -146,6 +168,7 @@ bool dip_peer_scene_open(const DipPeerOptions *options, DipPool *pool, DipPeerSc
     default:
         opened = open_synthetic(scene, options, err);
     }
+    opened = opened && make_plain(scene, err);
     if (opened && options->path) {
         opened = dip_campath_load(options->path, &scene->path, err);
     }
@@ -165,6 +188,8 @@ void dip_peer_scene_close(DipPeerScene *scene) {
     dip_synthetic_destroy(&scene->synthetic);
     free(scene->colours_lin);
     scene->colours_lin = NULL;
+    free(scene->materials);
+    scene->materials = NULL;
     dip_model_destroy(&scene->model);
 }
 
