@@ -162,12 +162,17 @@ VEC_INLINE void filter_vector(const Read *read, ReadMode mode, const ReadList *l
 }
 
 // Prefetches the texels of `count` listed reads. Each quad lies in one or two cache lines, mostly
-// in one; only the first one is prefetched.
-VEC_INLINE void prefetch_texels(const DipTexture *texture, const ReadList *list, int first,
-                                int count) {
-    const int32_t *index = list->index[first];
-    for (int i = 0; i < count * DIP_LANES; i++) {
-        __builtin_prefetch(texture->texels + (uint32_t)index[i]);
+// in one; only the first one is prefetched. Without anisotropy, neighbouring fragments mostly read
+// the same line, so only every second lane is prefetched, in the pattern of a chessboard if the
+// fragments are those of a sub-block.
+VEC_INLINE void prefetch_texels(const DipTexture *texture, ReadMode mode, const ReadList *list,
+                                int first, int count) {
+    for (int i = first; i < first + count; i++) {
+        for (int lane = 0; lane < DIP_LANES; lane++) {
+            if (mode.anisotropic || (lane + lane / 4) % 2 == 0) {
+                __builtin_prefetch(texture->texels + (uint32_t)list->index[i][lane]);
+            }
+        }
     }
 }
 
@@ -188,7 +193,7 @@ VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, 
         const int count =
             list_vector(&list, first, read.texture[0], mode, near, far, &footprints, n);
         for (int t = 0; t < read.count; t++) {
-            prefetch_texels(read.texture[t], &list, first, count);
+            prefetch_texels(read.texture[t], mode, &list, first, count);
         }
         first += count;
     }
