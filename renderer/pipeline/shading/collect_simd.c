@@ -10,6 +10,9 @@
 
 enum { VECTORS = 16 / DIP_LANES, ALL_PIXELS = 0xffff };
 
+// A sub-block with at most this many triangles is looked at triangle by triangle.
+enum { FEW_TRIANGLES = 3 };
+
 // Positions (tile_shading.h) of a sub-block's pixels, relative to the sub-block's first pixel.
 static const int32_t pixel_position[16] = {
     0,   1,   2,   3,   64,  65,  66,  67, // one row adds DIP_TILE
@@ -418,9 +421,26 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
     }
 }
 
-// Collects the pixels `left` of a sub-block that shows one triangle alone.
-static void push_one_draw(const SubBlock *sub, unsigned left) {
-    const uint32_t draw = left ? draw_of(sub->shading, sub->ids[0] - 1) : 0;
+// Returns whether the first samples of all pixels show the same draw, in a few triangles, and sets
+// *draw to it.
+static bool shows_one_draw(const SubBlock *sub, uint32_t *draw) {
+    if (!sub->ids[0]) {
+        return false;
+    }
+    *draw = draw_of(sub->shading, sub->ids[0] - 1);
+    unsigned left = ALL_PIXELS & ~pixels_with(sub->ids, sub->ids[0]);
+    for (int n = 1; n < FEW_TRIANGLES && left; n++) {
+        const uint32_t id = sub->ids[__builtin_ctz(left)];
+        if (!id || draw_of(sub->shading, id - 1) != *draw) {
+            return false;
+        }
+        left &= ~pixels_with(sub->ids, id);
+    }
+    return !left;
+}
+
+// Collects the pixels `left` of a sub-block that shows one draw alone.
+static void push_one_draw(const SubBlock *sub, unsigned left, uint32_t draw) {
     if (left == ALL_PIXELS) {
         push_whole(sub, draw);
     } else if (left) {
@@ -437,12 +457,12 @@ static void collect_sub_block(SubBlock *sub, bool grouped) {
     const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
     const bool several = sub->sample_count > 1 &&
                          multi_fragment_pixels(sub->ids, sub->sample_count, DIP_BLOCK_PIXELS);
-    if (within && !several && !grouped && sub->ids[0] &&
-        pixels_with(sub->ids, sub->ids[0]) == ALL_PIXELS) {
+    uint32_t draw;
+    if (within && !several && !grouped && shows_one_draw(sub, &draw)) {
         sub->shading->samples += DIP_SUB_BLOCK_PIXELS * (unsigned)sub->sample_count;
         const unsigned left =
             shares(sub->shading) ? share_pixels(sub, ALL_PIXELS) : (unsigned)ALL_PIXELS;
-        push_one_draw(sub, left);
+        push_one_draw(sub, left, draw);
     } else {
         collect_shared(sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(sub));
     }
