@@ -59,7 +59,7 @@ static void fill_picture(const DipEnvironmentDef *environment, const DipSrgbEnco
     for (size_t i = 0; i < texels; i++) {
         for (size_t c = 0; c < 3; c++) {
             const double light = fmin((double)environment->rgb_lin[3 * i + c], 1.0);
-            rgba8[4 * i + c] = codes->code[(int)(light * DIP_LINEAR16_MAX + 0.5)];
+            rgba8[4 * i + c] = dip_srgb_code(codes, (int)(light * DIP_LINEAR16_MAX + 0.5));
         }
         rgba8[4 * i + 3] = 255;
     }

@@ -3,9 +3,6 @@
 
 #include "renderer/base/fp_mode.h"
 
-#include <math.h>
-#include <string.h>
-
 // Returns x^(1/5) for 0 < x <= 1.2, by Newton's method. The iteration starts above the root and
 // falls monotonically to the root.
 static double fifth_root(double x) {
@@ -47,22 +44,24 @@ void dip_srgb_decode_table(DipSrgbDecodeTable *table) {
 
 void dip_srgb_encode_table(DipSrgbEncodeTable *table) {
     DIP_FP_MODE_SCOPE();
-    // Entry i belongs to the linear light i / 65535. The first entry with code c is the first whose
-    // light is at least the light of the sRGB value (c - 1/2) / 255. It is looked for from just
-    // below that light on.
-    int first = 0;
+    // Entry r covers the linear light from 16 r / 65535 on. The first light with code c is the
+    // first that is at least the light of the sRGB value (c - 1/2) / 255. It is looked for from
+    // just below that light on.
+    enum { RUNS = (DIP_LINEAR16_MAX + 1) / DIP_SRGB_RUN };
+    int run = 0;
     for (int code = 0; code < 255; code++) {
         const double end = decode((code + 0.5) / 255.0);
         int next = (int)(end * DIP_LINEAR16_MAX) - 1;
-        next = next < first ? first : next;
         while (next / (double)DIP_LINEAR16_MAX < end) {
             next++;
         }
-        memset(table->code + first, code, (size_t)(next - first));
-        first = next;
+        while (run < next / DIP_SRGB_RUN) {
+            table->runs[run++] = (uint16_t)(code * DIP_SRGB_RUN);
+        }
+        const int with_next_code = DIP_SRGB_RUN - next % DIP_SRGB_RUN;
+        table->runs[run++] = (uint16_t)(code * DIP_SRGB_RUN + with_next_code);
     }
-    memset(table->code + first, 255, (size_t)(DIP_LINEAR16_MAX + 1 - first));
-    for (int i = 1; i <= 3; i++) {
-        table->code[DIP_LINEAR16_MAX + i] = 255;
+    while (run <= RUNS) {
+        table->runs[run++] = 255 * DIP_SRGB_RUN;
     }
 }

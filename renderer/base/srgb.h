@@ -24,15 +24,25 @@ typedef struct DipSrgbDecodeTable {
 
 DIP_API void dip_srgb_decode_table(DipSrgbDecodeTable *table);
 
-// sRGB codes of 16-bit linear light: code[i] = floor(255 * encode(i / 65535) + 0.5), where encode
-// is the inverse of dip_srgb_decode. The table has three more entries, so that a kernel can read
-// four bytes from any i on.
 enum { DIP_LINEAR16_MAX = 65535 };
+
+// The sRGB codes of 16-bit linear light, in 8 KB, so that most of them stay in the first-level
+// cache. In a run of 16 values that starts at a multiple of 16, the code rises at most once, by 1.
+// The entry of a run is 16 times its first code, plus the number of its values that have the next
+// code. The table has one more entry, so that a kernel can read four bytes from any entry on.
+enum { DIP_SRGB_RUN = 16 };
 typedef struct DipSrgbEncodeTable {
-    uint8_t code[DIP_LINEAR16_MAX + 1 + 3];
+    uint16_t runs[(DIP_LINEAR16_MAX + 1) / DIP_SRGB_RUN + 1];
 } DipSrgbEncodeTable;
 
 DIP_API void dip_srgb_encode_table(DipSrgbEncodeTable *table);
+
+// Returns floor(255 * encode(linear16 / 65535) + 0.5), where encode is the inverse of
+// dip_srgb_decode. linear16 must lie within 0..DIP_LINEAR16_MAX.
+static inline uint8_t dip_srgb_code(const DipSrgbEncodeTable *table, int32_t linear16) {
+    const uint32_t light = (uint32_t)linear16;
+    return (uint8_t)((table->runs[light / DIP_SRGB_RUN] + light % DIP_SRGB_RUN) / DIP_SRGB_RUN);
+}
 
 #ifdef __cplusplus
 }

@@ -39,8 +39,8 @@ static void set_clear(DipTilePass *tile_pass, const float clear_lin[3]) {
         const float light =
             clear_lin[c] > 0.0f ? (clear_lin[c] < 1.0f ? clear_lin[c] : 1.0f) : 0.0f;
         tile_pass->clear_linear16[c] = (int32_t)(light * 65535.0f + 0.5f);
-        tile_pass->clear_rgba8 |= (uint32_t)tile_pass->srgb->code[tile_pass->clear_linear16[c]]
-                                  << (8 * c);
+        tile_pass->clear_rgba8 |=
+            (uint32_t)dip_srgb_code(tile_pass->srgb, tile_pass->clear_linear16[c]) << (8 * c);
     }
 }
 

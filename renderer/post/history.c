@@ -198,7 +198,7 @@ static void add_row(DipHistory *history, Worker *worker, int slot, int y) {
         .height = history->def.height,
         .from = picture->rgba8 + (size_t)y * picture->stride_bytes,
         .to = history->shows ? history->to + (size_t)y * history->to_stride_bytes : NULL,
-        .srgb_code = history->codes->code,
+        .srgb = history->codes,
         .begins = picture->step == DIP_HISTORY_BEGIN,
         .summed = history->summed,
         .past_scale = history->summed ? 1.0f / (float)history->summed : 1.0f,

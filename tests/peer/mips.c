@@ -30,8 +30,9 @@ static void encode(const DipMipLevel *level, DipEncoding encoding, const DipSrgb
         for (size_t c = 0; c < 4; c++) {
             const float light = level->rows[(4 * (i / width) + c) * width + i % width];
             const bool linear = encoding == DIP_ENCODING_LINEAR || c == 3;
-            rgba8[4 * i + c] = linear ? (uint8_t)lrintf(light * 255.0f)
-                                      : srgb->code[lrintf(light * DIP_LINEAR16_MAX)];
+            rgba8[4 * i + c] = linear
+                                   ? (uint8_t)lrintf(light * 255.0f)
+                                   : dip_srgb_code(srgb, (int32_t)lrintf(light * DIP_LINEAR16_MAX));
         }
     }
 }

@@ -329,7 +329,7 @@ static void round_light(const DipTruthJob *job, const double *lin, size_t pixels
         for (size_t c = 0; c < 3; c++) {
             const double value = fmin(fmax(lin[3 * i + c], 0.0), 1.0);
             rounded[3 * i + c] = (float)lin[3 * i + c];
-            rgba8[4 * i + c] = job->encode.code[(int)(value * DIP_LINEAR16_MAX + 0.5)];
+            rgba8[4 * i + c] = dip_srgb_code(&job->encode, (int)(value * DIP_LINEAR16_MAX + 0.5));
         }
         rgba8[4 * i + 3] = 255;
     }

@@ -206,9 +206,10 @@ const DipSamplePattern *dip_loupe_pattern(const DipLoupe *loupe, const DipQualit
 }
 
 DipColour dip_loupe_colour(const DipLoupe *loupe, const DipSampleValue *sample) {
-    const uint8_t *code = loupe->encode.code;
+    const DipSrgbEncodeTable *encode = &loupe->encode;
     const uint16_t *light = sample->linear16;
-    return (DipColour){code[light[0]], code[light[1]], code[light[2]], 255};
+    return (DipColour){dip_srgb_code(encode, light[0]), dip_srgb_code(encode, light[1]),
+                       dip_srgb_code(encode, light[2]), 255};
 }
 
 double dip_loupe_linear(const DipLoupe *loupe, uint8_t code) {

@@ -56,7 +56,7 @@ static void call_srgb(const ModeInputs *inputs, DipHash *hash) {
     const double one = dip_srgb_decode(0.3);
     hash_doubles(hash, decode.linear, 256);
     hash_doubles(hash, &one, 1);
-    dip_hash_bytes(hash, encode.code, sizeof encode.code);
+    dip_hash_bytes(hash, encode.runs, sizeof encode.runs);
 }
 
 static void call_numbers(const ModeInputs *inputs, DipHash *hash) {

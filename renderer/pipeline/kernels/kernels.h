@@ -3,6 +3,7 @@
 #define DIP_RENDERER_PIPELINE_KERNELS_KERNELS_H
 
 #include "renderer/base/isa.h"
+#include "renderer/base/srgb.h"
 #include "renderer/pipeline/shader.h"
 #include "renderer/pipeline/state.h"
 #include "renderer/simd/kernel_table.h"
@@ -48,9 +49,9 @@ typedef struct DipTriangle DipTriangle;           // raster/triangle.h
     X(void, dip_kernel_blend,                                                                      \
       (DipTileColours * colours, const DipDrawState *state, const DipOrderedBatch *ordered,        \
        const DipFragmentBatch *batch))                                                             \
-    /* Averages the samples of a block to bytes R, G, B, A. srgb_code NULL: linear codes. */       \
+    /* Averages the samples of a block to bytes R, G, B, A. srgb NULL: linear codes. */            \
     X(void, dip_kernel_resolve_codes,                                                              \
-      (const DipTileColours *colours, int block, const uint8_t *srgb_code, uint32_t *rgba8))       \
+      (const DipTileColours *colours, int block, const DipSrgbEncodeTable *srgb, uint32_t *rgba8)) \
     /* Averages the colours of the samples of a block to 16-bit linear light. */                   \
     X(void, dip_kernel_resolve_light16,                                                            \
       (const DipTileColours *colours, int block, DipBlockLight16 *light16))                        \
@@ -63,10 +64,10 @@ typedef struct DipTriangle DipTriangle;           // raster/triangle.h
     X(void, dip_kernel_interpolate,                                                                \
       (const DipShadingInput *input, const DipFragmentList *list, int varying_count,               \
        int value_only_count, DipFragmentBatch *batch))                                             \
-    /* Converts shaded colours to 16-bit linear light and, unless srgb_code is NULL, to sRGB */    \
+    /* Converts shaded colours to 16-bit linear light and, unless srgb is NULL, to sRGB */         \
     /* pixels. */                                                                                  \
     X(void, dip_kernel_encode,                                                                     \
-      (const DipFragmentBatch *batch, const uint8_t *srgb_code, DipEncodedBatch *out))             \
+      (const DipFragmentBatch *batch, const DipSrgbEncodeTable *srgb, DipEncodedBatch *out))       \
     /* Texture and target reads: DipSampleColour and its companions in shader.h. */                \
     X(void, dip_kernel_sample_colour,                                                              \
       (DipFragmentBatch * batch, const DipSampler *sampler, int u_varying,                         \

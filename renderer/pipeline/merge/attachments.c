@@ -205,8 +205,8 @@ static void resolve_colours(const DipMergePass *pass, DipMergeTile *merge, const
     if (pass->clamps) {
         const bool srgb = pass->pass->target.format == DIP_FORMAT_SRGB8;
         uint32_t rgba8[DIP_BLOCK_PIXELS];
-        pass->kernels->dip_kernel_resolve_codes(&merge->colours, block,
-                                                srgb ? pass->srgb->code : NULL, rgba8);
+        pass->kernels->dip_kernel_resolve_codes(&merge->colours, block, srgb ? pass->srgb : NULL,
+                                                rgba8);
         store_codes(pass, tile, block, rgba8);
     } else {
         DipBlockLight light;

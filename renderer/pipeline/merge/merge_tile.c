@@ -75,8 +75,8 @@ static uint32_t clear_code(const DipMergePass *merge) {
     for (int c = 0; c < CHANNELS; c++) {
         const int32_t linear16 = (int32_t)(merge->clear[c] * 65535.0f + 0.5f);
         const bool encodes = c < 3 && merge->pass->target.format == DIP_FORMAT_SRGB8;
-        const uint32_t code =
-            encodes ? merge->srgb->code[linear16] : ((uint32_t)linear16 * 255u + 32767u) / 65535u;
+        const uint32_t code = encodes ? dip_srgb_code(merge->srgb, linear16)
+                                      : ((uint32_t)linear16 * 255u + 32767u) / 65535u;
         rgba8 |= code << (8 * c);
     }
     return rgba8;

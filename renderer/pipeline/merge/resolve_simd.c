@@ -1,6 +1,7 @@
 // Averages the samples of a block's pixels, compiled once per instruction set.
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/merge/ordered.h"
+#include "renderer/simd/srgb.h"
 #include "renderer/simd/vec.h"
 
 // Returns 16-bit linear light, 0..65535, as dip_kernel_encode rounds it. v must lie within 0..1.
@@ -29,15 +30,14 @@ VEC_INLINE Vi to_code(Vi v) {
 }
 
 void DIP_KERNEL(dip_kernel_resolve_codes)(const DipTileColours *colours, int block,
-                                          const uint8_t *srgb_code, uint32_t *rgba8) {
+                                          const DipSrgbEncodeTable *srgb, uint32_t *rgba8) {
     const int first = block * colours->sample_count * DIP_BLOCK_PIXELS;
     for (int i = 0; i < DIP_BLOCK_PIXELS; i += DIP_LANES) {
         const bool split = dip_is_split(colours, block * 4 + i / DIP_SUB_BLOCK_PIXELS);
         Vu packed = vu_splat(0);
         for (int c = 0; c < 4; c++) {
             const Vi mean = mean16(colours->channel[c], first + i, colours->sample_count, split);
-            const Vu code =
-                srgb_code && c < 3 ? vu_gather_bytes(srgb_code, mean) & 0xffu : (Vu)to_code(mean);
+            const Vu code = srgb && c < 3 ? vu_srgb_codes(srgb, mean) : (Vu)to_code(mean);
             packed |= code << (8 * c);
         }
         vu_store(rgba8 + i, packed);

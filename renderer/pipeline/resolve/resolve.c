@@ -64,7 +64,7 @@ void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, i
     }
 }
 
-void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_code) {
+void dip_resolve_multi_fragment(DipTileShading *shading, const DipSrgbEncodeTable *srgb) {
     const int count = shading->tile->pattern->count;
     for (int i = 0; i < shading->multi_fragment_count; i++) {
         const uint32_t pixel = shading->multi_fragment[i];
@@ -78,7 +78,7 @@ void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_cod
         }
         uint32_t rgba8 = 0xff000000u;
         for (int c = 0; c < 3; c++) {
-            rgba8 |= (uint32_t)srgb_code[mean[c]] << (8 * c);
+            rgba8 |= (uint32_t)dip_srgb_code(srgb, mean[c]) << (8 * c);
         }
         *pixel_at(shading, pixel) = rgba8;
     }

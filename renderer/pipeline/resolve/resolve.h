@@ -3,6 +3,7 @@
 #ifndef DIP_RENDERER_PIPELINE_RESOLVE_RESOLVE_H
 #define DIP_RENDERER_PIPELINE_RESOLVE_RESOLVE_H
 
+#include "renderer/base/srgb.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 
 // Stores the fragments of a list of whole sub-blocks (DipTileShading.whole_lists).
@@ -16,7 +17,7 @@ void dip_store_fragments(DipTileShading *shading, const DipFragmentList *list, i
                          const DipEncodedBatch *encoded);
 
 // Stores the pixels that several fragments share. Such a pixel gets the mean of its samples in
-// linear light, encoded to sRGB. srgb_code: `code` of a DipSrgbEncodeTable.
-void dip_resolve_multi_fragment(DipTileShading *shading, const uint8_t *srgb_code);
+// linear light, encoded to sRGB.
+void dip_resolve_multi_fragment(DipTileShading *shading, const DipSrgbEncodeTable *srgb);
 
 #endif

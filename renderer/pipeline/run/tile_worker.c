@@ -58,8 +58,8 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw_index, DipFragmen
 static int shade_batch(DipTileWorker *worker, uint32_t draw, DipFragmentList *list) {
     const DipTilePass *pass = worker->pass;
     const int count = dip_tile_worker_shade(worker, draw, list);
-    pass->kernels->dip_kernel_encode(
-        &worker->batch, worker->shading.light16 ? NULL : pass->srgb->code, &worker->encoded);
+    pass->kernels->dip_kernel_encode(&worker->batch, worker->shading.light16 ? NULL : pass->srgb,
+                                     &worker->encoded);
     worker->shading.fragments += (uint64_t)count;
     return count;
 }
@@ -234,7 +234,7 @@ void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns) {
     const int64_t covered_ns = dip_clock_ns();
     dip_tile_worker_shade_tile(worker);
     const int64_t shaded_ns = dip_clock_ns();
-    dip_resolve_multi_fragment(&worker->shading, pass->srgb->code);
+    dip_resolve_multi_fragment(&worker->shading, pass->srgb);
     record->raster_ns += covered_ns - begin_ns;
     record->shading_ns = shaded_ns - covered_ns;
     record->resolve_ns = dip_clock_ns() - shaded_ns;

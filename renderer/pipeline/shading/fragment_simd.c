@@ -4,6 +4,7 @@
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/simd/pairs.h"
+#include "renderer/simd/srgb.h"
 
 // If the fragments of a vector lie on at most this many triangles, the planes are read triangle by
 // triangle. Otherwise they are gathered lane by lane.
@@ -179,7 +180,7 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
     }
 }
 
-void DIP_KERNEL(dip_kernel_encode)(const DipFragmentBatch *batch, const uint8_t *srgb_code,
+void DIP_KERNEL(dip_kernel_encode)(const DipFragmentBatch *batch, const DipSrgbEncodeTable *srgb,
                                    DipEncodedBatch *out) {
     for (int i = 0; i < batch->count; i += DIP_LANES) {
         Vu rgba8 = vu_splat(0xff000000u);
@@ -189,8 +190,8 @@ void DIP_KERNEL(dip_kernel_encode)(const DipFragmentBatch *batch, const uint8_t 
             const Vf scaled = vf_min(colour, vf_splat(1.0f)) * 65535.0f + 0.5f;
             const Vi linear16 = vi_from_float(scaled);
             vi_store(out->linear16[c] + i, linear16);
-            if (srgb_code) {
-                rgba8 |= (vu_gather_bytes(srgb_code, linear16) & 0xffu) << (8 * c);
+            if (srgb) {
+                rgba8 |= vu_srgb_codes(srgb, linear16) << (8 * c);
             }
         }
         vu_store(out->rgba8 + i, rgba8);

@@ -89,7 +89,7 @@ static void take_separable(DipPost *post, DipPostArena *arena) {
         post->weights_y[t] = dip_post_take(arena, (size_t)post->def.to_height, sizeof(float));
     }
     post->light = dip_post_take(arena, 256, sizeof *post->light);
-    post->srgb_code = dip_post_take(arena, 1, sizeof(DipSrgbEncodeTable));
+    post->srgb = dip_post_take(arena, 1, sizeof(DipSrgbEncodeTable));
 }
 
 // Weight of a pixel at a distance of `t` pixels, for a Catmull-Rom spline.
@@ -122,7 +122,7 @@ static void prepare_separable(DipPost *post) {
     for (int i = 0; i < 256; i++) {
         post->light[i] = (float)decode.linear[i];
     }
-    dip_srgb_encode_table((DipSrgbEncodeTable *)(void *)post->srgb_code);
+    dip_srgb_encode_table(post->srgb);
 }
 
 // Unpacks a row of the source and spreads it along x.
@@ -149,7 +149,7 @@ static void blend_row(DipPost *post, int worker, const Band *band, int y) {
     DipBlendRow row = {
         .taps = taps,
         .first = post->places_x.first,
-        .srgb_code = post->srgb_code,
+        .srgb = post->srgb,
         .to = post->to + (size_t)y * post->to_stride_bytes,
         .width = post->def.to_width,
     };

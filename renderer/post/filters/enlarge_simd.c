@@ -1,6 +1,7 @@
 // Enlarging: separable sums in linear light, and EASU, the upscaling of FSR 1 (AMD, 2021).
 #include "renderer/post/filters/pixels_simd.h"
 #include "renderer/post/filters/post_kernels.h"
+#include "renderer/simd/srgb.h"
 
 // The result has at least as many pixels as the source, so the places of DIP_LANES successive
 // pixels lie within DIP_LANES values from the first place on.
@@ -60,7 +61,7 @@ void DIP_KERNEL(dip_kernel_blend_row)(const DipBlendRow *row) {
                 sum = within_nearest(sum, row->nearest[0][c], row->nearest[1][c], places);
             }
             const Vf light = vf_min(vf_max(sum, vf_splat(0.0f)), vf_splat(1.0f));
-            rgb[c] = (Vi)(vu_gather_bytes(row->srgb_code, vi_nearest(light * 65535.0f)) & 0xffu);
+            rgb[c] = (Vi)vu_srgb_codes(row->srgb, vi_nearest(light * 65535.0f));
         }
         vu_store_pixels(row->to + 4 * x, row->width - x, vu_pixels(rgb, vu_splat(0xff000000u)));
     }

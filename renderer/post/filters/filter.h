@@ -75,8 +75,8 @@ struct DipPost {
     DipPostPlaces places_y;
     float *weights_x[4];
     float *weights_y[4];
-    float *light;       // linear light of the 256 codes
-    uint8_t *srgb_code; // `code` of a DipSrgbEncodeTable
+    float *light; // linear light of the 256 codes
+    DipSrgbEncodeTable *srgb;
 };
 
 // A filter: how it takes its memory, how it fills what never changes, and how it runs.

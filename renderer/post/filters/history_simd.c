@@ -3,6 +3,7 @@
 #include "renderer/post/filters/pixels_simd.h"
 #include "renderer/post/filters/post_kernels.h"
 #include "renderer/simd/quads.h"
+#include "renderer/simd/srgb.h"
 
 typedef struct Colour {
     Vf channel[3]; // y, co, cg
@@ -31,7 +32,7 @@ void DIP_KERNEL(dip_kernel_history_unpack)(const uint8_t *rgba8, int width, cons
 VEC_INLINE void show(const DipHistoryRow *row, int x, const Vf rgb[3]) {
     Vi codes[3];
     for (int c = 0; c < 3; c++) {
-        codes[c] = (Vi)(vu_gather_bytes(row->srgb_code, vi_nearest(rgb[c])) & 0xffu);
+        codes[c] = (Vi)vu_srgb_codes(row->srgb, vi_nearest(rgb[c]));
     }
     const Vu from = vu_load_pixels(row->from + 4 * x, row->width - x);
     vu_store_pixels(row->to + 4 * x, row->width - x, vu_pixels(codes, from));

@@ -5,6 +5,7 @@
 #ifndef DIP_RENDERER_POST_FILTERS_POST_KERNELS_H
 #define DIP_RENDERER_POST_FILTERS_POST_KERNELS_H
 
+#include "renderer/base/srgb.h"
 #include "renderer/simd/kernel_table.h"
 
 #include <stdbool.h>
@@ -78,7 +79,7 @@ typedef struct DipBlendRow {
     // those at first[i] and first[i] + 1 in these two rows of values.
     const float *nearest[2][3];
     const int32_t *first;
-    const uint8_t *srgb_code; // `code` of a DipSrgbEncodeTable
+    const DipSrgbEncodeTable *srgb;
     uint8_t *to;
     int width;
 } DipBlendRow;
@@ -113,13 +114,13 @@ typedef struct DipHistoryRow {
     const float *depths[3];     // depths of the same rows
     const uint8_t *from;        // the pixels, for their alpha
     uint8_t *to;                // NULL: the result is not shown
-    const uint8_t *srgb_code;   // `code` of a DipSrgbEncodeTable
-    float to_before[12];        // DipHistoryPicture.to_before
-    bool begins;                // the picture has no past
-    int summed;                 // pictures whose sum the past is; 0: it is a picture
-    float past_scale;           // 1 / summed, or 1
-    float alpha;                // share of the new picture
-    const float *past[3];       // channels of pixel (0, 0) of the last result, in planes
+    const DipSrgbEncodeTable *srgb;
+    float to_before[12];  // DipHistoryPicture.to_before
+    bool begins;          // the picture has no past
+    int summed;           // pictures whose sum the past is; 0: it is a picture
+    float past_scale;     // 1 / summed, or 1
+    float alpha;          // share of the new picture
+    const float *past[3]; // channels of pixel (0, 0) of the last result, in planes
     int plane_stride;
     float *result[3]; // the row's channels
 } DipHistoryRow;

@@ -53,10 +53,11 @@ static int overlap_of(Axis axis, int at, int i) {
 }
 
 // Stores `count` pixels, whose light in channel c is light16[c][i].
-static void store(const uint8_t *srgb_code, uint32_t (*light16)[CHUNK], int count, uint8_t *rgba8) {
+static void store(const DipSrgbEncodeTable *srgb, uint32_t (*light16)[CHUNK], int count,
+                  uint8_t *rgba8) {
     for (int i = 0; i < count; i++) {
         for (int c = 0; c < CHANNELS; c++) {
-            rgba8[4 * i + c] = srgb_code[light16[c][i]];
+            rgba8[4 * i + c] = dip_srgb_code(srgb, (int32_t)light16[c][i]);
         }
         rgba8[4 * i + 3] = 255;
     }
@@ -84,7 +85,7 @@ static void halve_tile(const DipBoxFilter *box, const DipTargetRegion *pixels,
                 means[c][x] = (sum + 2) >> 2;
             }
         }
-        store(box->srgb_code, means, width,
+        store(box->srgb, means, width,
               box->to.rgba8 + (size_t)y * box->to.stride_bytes + (size_t)pixels->x0 * 2);
     }
 }
@@ -180,7 +181,7 @@ static void average(const DipBoxFilter *box, const Taps *taps, Axis across, Axis
             means[c][x] = (uint32_t)(int32_t)((mean + 0.5 * whole) * inverse + 0x1p-29);
         }
     }
-    store(box->srgb_code, means, x1 - x0,
+    store(box->srgb, means, x1 - x0,
           box->to.rgba8 + (size_t)y * box->to.stride_bytes + (size_t)x0 * 4);
 }
 

@@ -3,6 +3,7 @@
 #define DIP_RENDERER_SCENE_DRAW_BOX_H
 
 #include "renderer/base/pool.h"
+#include "renderer/base/srgb.h"
 #include "renderer/pipeline/target.h"
 
 #include <stddef.h>
@@ -23,7 +24,7 @@ typedef struct DipBoxFilter {
     // The larger picture's light: planes of red, green and blue, in rows without gaps. NULL if both
     // ratios are 2: each tile is then averaged at once, and dip_box_filter has nothing left to do.
     uint16_t *light16;
-    const uint8_t *srgb_code; // sRGB code of each 16-bit light (DipSrgbEncodeTable)
+    const DipSrgbEncodeTable *srgb;
 } DipBoxFilter;
 
 // Returns the memory in bytes that `light16` takes for a picture of this size; 0 if it is NULL.

@@ -132,7 +132,7 @@ static void average_pass(DipFrameSetup *setup) {
                .width = renderer->width,
                .height = renderer->height},
         .light16 = scaled->light16,
-        .srgb_code = scaled->codes->code,
+        .srgb = scaled->codes,
     };
     setup->pass.tile_done = dip_box_take_tile;
     setup->pass.tile_context = &setup->box;

@@ -303,7 +303,7 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
     static DipFragmentBatch found;
     static DipSrgbEncodeTable srgb;
     static DipFragmentList list;
-    if (!srgb.code[DIP_LINEAR16_MAX]) {
+    if (!srgb.runs[DIP_LINEAR16_MAX / DIP_SRGB_RUN]) {
         dip_srgb_encode_table(&srgb);
     }
     for (size_t i = 0; i < DIP_ARRAY_COUNT(planes); i++) {
@@ -341,8 +341,8 @@ static void compare_fragments(const DipKernels *scalar, const DipKernels *other,
             expected.colour[c][i] = awkward(random, 1.5);
         }
     }
-    scalar->dip_kernel_encode(&expected, srgb.code, &expected_code);
-    other->dip_kernel_encode(&expected, srgb.code, &found_code);
+    scalar->dip_kernel_encode(&expected, &srgb, &expected_code);
+    other->dip_kernel_encode(&expected, &srgb, &found_code);
     const size_t n = (size_t)list.count;
     assert_memory_equal(found_code.rgba8, expected_code.rgba8, n * sizeof(uint32_t));
     for (int c = 0; c < 3; c++) {

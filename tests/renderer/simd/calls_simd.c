@@ -5,6 +5,7 @@
 #include "renderer/simd/pairs.h"
 #include "renderer/simd/powers.h"
 #include "renderer/simd/quads.h"
+#include "renderer/simd/srgb.h"
 #include "renderer/simd/vec.h"
 
 static Mask load_mask(const int32_t *lanes) {
@@ -147,6 +148,7 @@ static void call_on_memory(SimdCall call, const void *const in[4], void *out) {
         CALL(vi_lookup32, vi_store(out, vi_lookup32(in[0], VI(1))));
         CALL(vf_lookup16, vf_store(out, vf_lookup16(in[0], VI(1))));
         CALL(vu_gather_bytes, vu_store(out, vu_gather_bytes(in[0], VI(1))));
+        CALL(vu_srgb_codes, vu_store(out, vu_srgb_codes(in[0], VI(1))));
         CALL(vf_expand, vf_store(out, vf_expand(in[0], NUMBER(unsigned, 1))));
         CALL(hi_gather, store_half(out, hi_gather(in[0], HI(1))));
         CALL(hf_gather, store_half(out, (Hi)hf_gather(in[0], HI(1))));

@@ -54,6 +54,7 @@
     X(vi_lookup32)                                                                                 \
     X(vf_lookup16)                                                                                 \
     X(vu_gather_bytes)                                                                             \
+    X(vu_srgb_codes)                                                                               \
     X(vu_compress)                                                                                 \
     X(vf_expand)                                                                                   \
     X(hi_load)                                                                                     \
