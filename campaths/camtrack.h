@@ -41,8 +41,9 @@ typedef struct DipCamTrack {
 // paths are loops.
 DIP_API DipCamTrack dip_camtrack_make(bool reset_on_switch);
 
-// Sets the path and field of view of a category. Categories that play the same path must share the
-// pointer, so that a change between them counts as no change of path.
+// Sets the path and field of view of a category, 0..DIP_CAMTRACK_CATEGORIES - 1. Categories that
+// play the same path must share the pointer, so that a change between them counts as no change of
+// path.
 DIP_API void dip_camtrack_set(DipCamTrack *track, int category, const DipCamPath *path,
                               double fov_y_deg);
 
@@ -54,9 +55,10 @@ DIP_API void dip_camtrack_set_named(DipCamTrack *track, int category, const DipC
 // Sets what paths do at their end.
 DIP_API void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end);
 
-// Makes a category active at a play time. If this changes the path and reset_on_switch is set, the
-// new path starts at its beginning. Otherwise it continues at the time that the old path had
-// reached, so that a change to another path and back does not affect the time.
+// Makes a category, 0..DIP_CAMTRACK_CATEGORIES - 1, active at a play time. If this changes the path
+// and reset_on_switch is set, the new path starts at its beginning. Otherwise it continues at the
+// time that the old path had reached, so that a change to another path and back does not affect the
+// time.
 DIP_API void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
 
 // Returns the active path to its beginning.

@@ -112,6 +112,11 @@ static uint8_t *packed_rgb(const uint8_t *rgba8, size_t stride_bytes, int width,
     return rgb;
 }
 
+// Returns whether a picture has pixels, and few enough: stb_image_write counts bytes with ints.
+static bool has_good_size(int width, int height) {
+    return width >= 1 && height >= 1 && width <= DIP_MAX_WRITTEN_PIXELS / height;
+}
+
 // Fills the buffer with a PNG. `pixels` has packed rows with 1 or 3 channels. Returns false when
 // memory runs out.
 static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int height, int channels) {
@@ -131,6 +136,9 @@ static bool write_png(Buffer *buffer, const uint8_t *pixels, int width, int heig
 // Encodes a PNG if `quality` is 0, and otherwise a JPEG of this quality.
 static bool encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
                    unsigned char **bytes, size_t *size_bytes) {
+    if (!has_good_size(width, height)) {
+        return false;
+    }
     Buffer buffer = {0};
     uint8_t *rgb = packed_rgb(rgba8, stride_bytes, width, height);
     const bool made = rgb && (quality == 0 ? write_png(&buffer, rgb, width, height, 3)
@@ -154,7 +162,9 @@ bool dip_png_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int he
 
 bool dip_jpeg_encode(const uint8_t *rgba8, size_t stride_bytes, int width, int height, int quality,
                      unsigned char **bytes, size_t *size_bytes) {
-    return encode(rgba8, stride_bytes, width, height, quality, bytes, size_bytes);
+    return quality >= 1 && quality <= 100 && width <= DIP_MAX_JPEG_SIZE &&
+           height <= DIP_MAX_JPEG_SIZE &&
+           encode(rgba8, stride_bytes, width, height, quality, bytes, size_bytes);
 }
 
 // --- chunks of PNG -------------------------------------------------------------------------------
@@ -190,7 +200,8 @@ static size_t frame_chunk(unsigned char *chunk, const char *type, size_t content
 bool dip_png_encode_indexed(const uint8_t *indices, const uint8_t *palette, int width, int height,
                             unsigned char **bytes, size_t *size_bytes) {
     Buffer grey = {0};
-    const bool written = write_png(&grey, indices, width, height, 1);
+    const bool written =
+        has_good_size(width, height) && write_png(&grey, indices, width, height, 1);
     unsigned char *made = written ? malloc(grey.size + PNG_PALETTE_BYTES + PNG_CHUNK_FRAME) : NULL;
     if (made) {
         size_t size = PNG_AFTER_HEADER;
@@ -259,14 +270,22 @@ static bool add_texts(unsigned char **bytes, size_t *size_bytes, const DipPngTex
 
 // --- files ---------------------------------------------------------------------------------------
 
-// Checks that the picture has pixels, and that stride_bytes is enough for a row of them.
-static bool check_pixels(const char *file, const DipFrame *frame, DipError *err) {
-    if (!frame->rgba8) {
-        return dip_error_set(err, DIP_ERROR_MISSING, file, 0, "rgba8", "NULL, accepted a pointer");
+// Checks the pointer to a picture's pixels, which is the parameter `name`, and its size.
+static bool check_size(const char *file, const char *name, const void *pixels, int width,
+                       int height, DipError *err) {
+    if (!pixels) {
+        return dip_error_set(err, DIP_ERROR_MISSING, file, 0, name, "NULL, accepted a pointer");
     }
-    if (frame->width < 1 || frame->height < 1) {
-        return dip_error_set(err, DIP_ERROR_RANGE, file, 0, "width",
-                             "%dx%d pixels, accepted 1x1 and more", frame->width, frame->height);
+    return has_good_size(width, height) ||
+           dip_error_set(err, DIP_ERROR_RANGE, file, 0, "width",
+                         "%dx%d pixels, accepted 1x1 and more, with at most %d pixels", width,
+                         height, DIP_MAX_WRITTEN_PIXELS);
+}
+
+// Checks a frame's pixels, and that stride_bytes is enough for a row of them.
+static bool check_frame(const char *file, const DipFrame *frame, DipError *err) {
+    if (!check_size(file, "rgba8", frame->rgba8, frame->width, frame->height, err)) {
+        return false;
     }
     const size_t row_bytes = 4 * (size_t)frame->width;
     return frame->stride_bytes >= row_bytes ||
@@ -277,7 +296,7 @@ static bool check_pixels(const char *file, const DipFrame *frame, DipError *err)
 
 bool dip_png_write_with_texts(const char *file, const DipFrame *frame, const DipPngText *texts,
                               int count, DipError *err) {
-    if (!check_pixels(file, frame, err)) {
+    if (!check_frame(file, frame, err)) {
         return false;
     }
     unsigned char *bytes = NULL;
@@ -320,6 +339,9 @@ static void store_values(unsigned char *to, const float *values, size_t count) {
 }
 
 bool dip_pfm_write(const char *file, const float *rgb, int width, int height, DipError *err) {
+    if (!check_size(file, "rgb", rgb, width, height, err)) {
+        return false;
+    }
     const size_t row_values = 3 * (size_t)width;
     unsigned char *bytes = malloc(HEADER_ROOM + 4 * row_values * (size_t)height);
     if (!bytes) {

@@ -1,8 +1,6 @@
 // Finds the instruction sets that are built into the program and supported by the processor.
 #include "renderer/base/isa.h"
 
-#include "renderer/base/assert.h"
-
 #include <string.h>
 
 const char *dip_isa_name(DipIsa isa) {
@@ -11,8 +9,7 @@ const char *dip_isa_name(DipIsa isa) {
         DIP_ISA_LIST(DIP_ISA_NAME)
 #undef DIP_ISA_NAME
     };
-    DIP_ASSERT((unsigned)isa < DIP_ISA_COUNT);
-    return names[isa];
+    return (unsigned)isa < DIP_ISA_COUNT ? names[isa] : "?";
 }
 
 bool dip_isa_parse(const char *name, DipIsa *isa) {

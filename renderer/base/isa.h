@@ -27,7 +27,8 @@ typedef enum DipIsa {
         DIP_ISA_COUNT
 } DipIsa;
 
-// Returns the name that DIP_ISA_LIST gives an instruction set. Static storage.
+// Returns the name that DIP_ISA_LIST gives an instruction set, or "?" for any other number. Static
+// storage.
 DIP_API const char *dip_isa_name(DipIsa isa);
 // Sets *isa to the instruction set with exactly this name. Returns false if there is none.
 DIP_API bool dip_isa_parse(const char *name, DipIsa *isa);

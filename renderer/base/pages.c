@@ -2,6 +2,7 @@
 #define _DEFAULT_SOURCE // madvise
 #include "renderer/base/pages.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #ifdef _WIN32
 #include <malloc.h>
@@ -11,8 +12,9 @@
 
 enum { HUGE_PAGE = 2 << 20, LARGE = 1 << 20 };
 
+// Returns the next greater multiple of a unit, or 0 if there is none.
 static size_t round_up(size_t size_bytes, size_t unit) {
-    return (size_bytes / unit + 1) * unit;
+    return size_bytes < SIZE_MAX - unit ? (size_bytes / unit + 1) * unit : 0;
 }
 
 #ifdef _WIN32
@@ -35,7 +37,8 @@ void dip_lines_free(void *block) {
 #endif
 
 void *dip_lines_alloc(size_t size_bytes) {
-    return alloc(DIP_CACHE_LINE, round_up(size_bytes, DIP_CACHE_LINE));
+    const size_t room_bytes = round_up(size_bytes, DIP_CACHE_LINE);
+    return room_bytes ? alloc(DIP_CACHE_LINE, room_bytes) : NULL;
 }
 
 void *dip_pages_alloc(size_t size_bytes) {
@@ -43,7 +46,7 @@ void *dip_pages_alloc(size_t size_bytes) {
         return dip_lines_alloc(size_bytes);
     }
     const size_t room_bytes = round_up(size_bytes, HUGE_PAGE);
-    void *memory = alloc(HUGE_PAGE, room_bytes);
+    void *memory = room_bytes ? alloc(HUGE_PAGE, room_bytes) : NULL;
 #ifdef MADV_HUGEPAGE
     if (memory) {
         // This is only advice; small pages work too.

@@ -28,11 +28,12 @@ DIP_API void dip_pool_destroy(DipPool **pool);
 // Returns the number of threads, including the caller of dip_pool_run: 1 for NULL.
 DIP_API int dip_pool_thread_count(const DipPool *pool);
 
-// Runs the task for each index 0..count-1 and returns when the task is done for all of them. A pool
-// does one such run at a time: if several threads call this function, they take turns. Do not call
-// it from a task of the same pool, which would wait for itself. If pool is NULL, the caller's
-// thread runs the task for all indices as worker 0. Tasks run in the floating-point mode of
-// fp_mode.h; afterwards the caller's own mode is restored.
+// Runs the task for each index 0..count-1 and returns when the task is done for all of them. count
+// is at most INT_MAX - DIP_MAX_THREADS; if it is 0 or less, no task is run. A pool does one such
+// run at a time: if several threads call this function, they take turns. Do not call it from a task
+// of the same pool, which would wait for itself. If pool is NULL, the caller's thread runs the task
+// for all indices as worker 0. Tasks run in the floating-point mode of fp_mode.h; afterwards the
+// caller's own mode is restored.
 DIP_API void dip_pool_run(DipPool *pool, int count, DipTask task, void *context);
 
 #ifdef __cplusplus

@@ -73,8 +73,8 @@ typedef struct DipSampleGroups {
     int32_t centroid[1 << DIP_MAX_SAMPLES];
 } DipSampleGroups;
 
-// Returns whether adaptive antialiasing can divide sample_count samples into groups of
-// samples_per_group.
+// Returns whether adaptive antialiasing can divide sample_count samples (1, 2, 4, 6 or 8) into
+// groups of samples_per_group, which may be any number.
 DIP_API bool dip_sample_groups_exist(int sample_count, int samples_per_group);
 
 // Fills in the groups of a pattern. dip_sample_groups_exist must return true for samples_per_group.

@@ -499,10 +499,9 @@ DipPipeline *dip_pipeline_create(DipPool *pool, DipIsa isa, int width, int heigh
         return NULL;
     }
     if (!dip_isa_available(isa)) {
-        const char *name = dip_isa_name(isa);
         dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "isa",
                       "%s is not available on this machine, accepted dip_isa_best()",
-                      name ? name : "this value");
+                      dip_isa_name(isa));
         return NULL;
     }
     DipPipeline *pipeline = calloc(1, sizeof *pipeline);

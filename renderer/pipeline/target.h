@@ -56,7 +56,8 @@ typedef struct DipTargetRegion {
 enum { DIP_TARGET_TILE = 64 }; // targets are drawn in tiles of 64x64 pixels, row by row
 
 // A rectangle within one tile: pixels x0..x1-1 by y0..y1-1, counted from the tile's top left
-// corner. All four are multiples of 8. All 0 means that no pixel of the tile is needed.
+// corner. All four are multiples of 8, 0..DIP_TARGET_TILE, with x0 < x1 and y0 < y1. All 0 means
+// that no pixel of the tile is needed.
 typedef struct DipTileRegion {
     uint8_t x0, y0, x1, y1;
 } DipTileRegion;

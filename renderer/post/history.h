@@ -40,7 +40,8 @@ typedef struct DipHistoryDef {
 // The history of one sequence of pictures. Use it on one thread at a time.
 typedef struct DipHistory DipHistory;
 
-// Makes an empty history. Fails with RANGE, UNSUPPORTED or MEMORY.
+// Makes an empty history. Fails with RANGE (a size), UNSUPPORTED (the instruction set) or MEMORY;
+// err may be NULL.
 DIP_API DipHistory *dip_history_create(const DipHistoryDef *def, DipError *err);
 // *history may be NULL and becomes NULL.
 DIP_API void dip_history_destroy(DipHistory **history);
@@ -49,7 +50,7 @@ DIP_API size_t dip_history_bytes(const DipHistory *history);
 
 // How a picture follows the one before it.
 typedef enum DipHistoryStep {
-    DIP_HISTORY_BEGIN, // not at all: the history begins anew with it
+    DIP_HISTORY_BEGIN, // not at all: the history begins anew with it, as with the first picture
     DIP_HISTORY_MOVE,  // the camera or the scene has moved
     DIP_HISTORY_REST,  // it shows the same from the same camera, but for the shift
 } DipHistoryStep;
@@ -60,8 +61,9 @@ typedef struct DipHistoryPicture {
     size_t stride_bytes;
     // The depth of each pixel, near / w; 0 is infinitely far. Rows follow each other without gaps.
     // If the depths have another size than the pictures, each pixel has the depth at its centre.
+    // They are not read if the step is DIP_HISTORY_REST, and may then be NULL.
     const float *depths;
-    int depths_width;
+    int depths_width; // 1 or more
     int depths_height;
     // A row-major matrix of three rows. It takes (x, y, 1, depth), with x and y from -1 to 1, left
     // to right and bottom to top, to the place (x w, y w, w) of the same point in the picture

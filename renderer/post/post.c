@@ -21,7 +21,7 @@ static const DipPostKind *const kinds[DIP_POST_COUNT] = {
 };
 
 const char *dip_post_name(DipPostFilter filter) {
-    return names[filter];
+    return (unsigned)filter < DIP_POST_COUNT ? names[filter] : "?";
 }
 
 bool dip_post_parse(const char *name, DipPostFilter *filter) {
@@ -39,6 +39,10 @@ bool dip_post_enlarges(DipPostFilter filter) {
 }
 
 static bool check(const DipPostDef *def, DipError *err) {
+    if ((unsigned)def->filter >= DIP_POST_COUNT) {
+        return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "filter", "%d, accepted: 0 to %d",
+                             (int)def->filter, DIP_POST_COUNT - 1);
+    }
     const char *name = names[def->filter];
     if (def->from_width < 1 || def->from_height < 1 || def->to_width > DIP_MAX_POST_SIZE ||
         def->to_height > DIP_MAX_POST_SIZE || def->from_width > def->to_width ||
@@ -68,37 +72,40 @@ static bool check(const DipPostDef *def, DipError *err) {
     return true;
 }
 
-DipPost *dip_post_create(const DipPostDef *def, DipError *err) {
-    if ((int)def->filter < 0 || def->filter >= DIP_POST_COUNT) {
-        dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "filter", "%d, accepted: 0 to %d",
-                      (int)def->filter, DIP_POST_COUNT - 1);
+// Returns NULL if memory runs out.
+static DipPost *make(const DipPostDef *def) {
+    DipPost *post = calloc(1, sizeof *post);
+    if (!post) {
         return NULL;
     }
-    const DipFpMode mode = dip_fp_mode_set();
-    DipPost *post = check(def, err) ? calloc(1, sizeof *post) : NULL;
-    if (post) {
-        post->def = *def;
-        post->kernels = dip_post_kernels(def->isa);
-        post->worker_count = dip_pool_thread_count(def->pool);
-        DipPostArena arena = {0};
-        kinds[def->filter]->take(post, &arena);
-        post->bytes = arena.used;
-        post->memory = dip_pages_alloc(arena.used);
-        if (post->memory) {
-            memset(post->memory, 0, post->bytes);
-            arena = (DipPostArena){.memory = post->memory};
-            kinds[def->filter]->take(post, &arena);
-            kinds[def->filter]->prepare(post);
-        } else {
-            free(post);
-            post = NULL;
-        }
+    post->def = *def;
+    post->kernels = dip_post_kernels(def->isa);
+    post->worker_count = dip_pool_thread_count(def->pool);
+    DipPostArena arena = {0};
+    kinds[def->filter]->take(post, &arena);
+    post->bytes = arena.used;
+    post->memory = dip_pages_alloc(arena.used);
+    if (!post->memory) {
+        free(post);
+        return NULL;
     }
-    if (!post && (!err || err->code == DIP_ERROR_NONE)) {
+    memset(post->memory, 0, post->bytes);
+    arena = (DipPostArena){.memory = post->memory};
+    kinds[def->filter]->take(post, &arena);
+    kinds[def->filter]->prepare(post);
+    return post;
+}
+
+DipPost *dip_post_create(const DipPostDef *def, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (!check(def, err)) {
+        return NULL;
+    }
+    DipPost *post = make(def);
+    if (!post) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, names[def->filter],
                       "out of memory for pictures of %d x %d", def->to_width, def->to_height);
     }
-    dip_fp_mode_restore(mode);
     return post;
 }
 

@@ -44,7 +44,7 @@ typedef enum DipPostFilter {
         DIP_POST_COUNT
 } DipPostFilter;
 
-// Returns the name of a filter: "fxaa". Static storage.
+// Returns the name of a filter: "fxaa", or "?" for any other number. Static storage.
 DIP_API const char *dip_post_name(DipPostFilter filter);
 // Sets *filter to the filter with exactly this name. Returns false if there is none.
 DIP_API bool dip_post_parse(const char *name, DipPostFilter *filter);
@@ -59,15 +59,16 @@ typedef struct DipPostDef {
     int from_height;
     int to_width;    // size of the result; only a filter that enlarges may have another one,
     int to_height;   // which is then at least as wide and as high as the source
-    float sharpness; // for sharpen: 0 changes nothing, 1 is the strongest
+    float sharpness; // 0..1, for sharpen: 0 changes nothing, 1 is the strongest
     DipIsa isa;      // an instruction set that this machine has (dip_isa_available)
     DipPool *pool;   // borrowed, must outlive the DipPost; NULL: the caller's thread works alone
 } DipPostDef;
 
-// A filter with its working memory. Use one per thread.
+// A filter with its working memory. Use it on one thread at a time.
 typedef struct DipPost DipPost;
 
-// Makes a filter. Fails with RANGE or MEMORY.
+// Makes a filter. Fails with UNKNOWN (the filter), RANGE (a size, or sharpness), UNSUPPORTED (the
+// instruction set) or MEMORY; err may be NULL.
 DIP_API DipPost *dip_post_create(const DipPostDef *def, DipError *err);
 // *post may be NULL and becomes NULL.
 DIP_API void dip_post_destroy(DipPost **post);

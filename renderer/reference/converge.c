@@ -49,7 +49,7 @@ void dip_reference_sample_position(int index, int side, uint32_t seed, size_t pi
 
 bool dip_reference_check_samples(int sample_count, int *side, DipError *err) {
     *side = sample_count > 0 ? (int)lround(sqrt(sample_count)) : 0;
-    return (sample_count >= 1 && *side * *side == sample_count) ||
+    return (sample_count >= 1 && (int64_t)*side * *side == sample_count) ||
            dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples",
                          "%d per pixel is not a square, accepted 1, 4, 9, 16, ...", sample_count);
 }
@@ -293,10 +293,8 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
                             DipError *err) {
     DIP_FP_MODE_SCOPE();
     int side;
-    if (!dip_reference_check_samples(sample_count, &side, err)) {
-        return false;
-    }
-    if (!dip_reference_check_frame(reference, width, height, err)) {
+    if (!dip_reference_check_samples(sample_count, &side, err) ||
+        !dip_reference_check_frame(reference, pose, width, height, err)) {
         return false;
     }
     Converging c = {.reference = reference,
@@ -323,6 +321,8 @@ bool dip_reference_converge(const DipReference *reference, const DipPose *pose, 
         start_plane(&c, s, side, seed);
         draw_plane(&c);
         add_plane(&c, 1.0 / sample_count, rgb_lin);
+        // Drawing may have ended early, so that the plane lacks triangles.
+        converged = !dip_reference_stopped(reference, err);
     }
     finish(&c);
     finish(&mirrored);

@@ -122,7 +122,7 @@ static DipConvergence *create(const DipReference *reference, const DipRefShot *s
 DipConvergence *dip_convergence_create(const DipReference *reference, const DipPose *pose,
                                        int width, int height, DipError *err) {
     DIP_FP_MODE_SCOPE();
-    if (!dip_reference_check_frame(reference, width, height, err)) {
+    if (!dip_reference_check_frame(reference, pose, width, height, err)) {
         return NULL;
     }
     DipRefShot shot = {pose, width, height, (double)width / height, .shadows = true};
@@ -506,6 +506,11 @@ bool dip_convergence_add_tile(const DipConvergence *convergence, int tile, int s
     int side;
     Samples samples;
     Samples mirrored = {0};
+    const int tile_count = dip_convergence_tile_count(convergence);
+    if (tile < 0 || tile >= tile_count) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "tile", "%d, accepted 0..%d", tile,
+                             tile_count - 1);
+    }
     if (!dip_reference_check_samples(sample_count, &side, err)) {
         return false;
     }

@@ -546,8 +546,13 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
                         DipError *err) {
     DIP_FP_MODE_SCOPE();
     if (!dip_quality_check(quality, err) ||
-        !dip_reference_check_frame(reference, width, height, err)) {
+        !dip_reference_check_frame(reference, pose, width, height, err)) {
         return false;
+    }
+    if (reference->for_truth) {
+        return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "reference",
+                             "it was created for converged pictures only, accepted one of "
+                             "dip_reference_create");
     }
     const double aspect = (double)width / height;
     const int drawn_width = dip_quality_drawn_size(quality, width);
@@ -555,7 +560,7 @@ bool dip_reference_draw(const DipReference *reference, const DipQuality *quality
     if (drawn_width == width && drawn_height == height) {
         return draw_picture(reference, quality, pose, aspect, width, height, rgb_lin, err);
     }
-    if (!dip_reference_check_frame(reference, drawn_width, drawn_height, err)) {
+    if (!dip_reference_check_frame(reference, pose, drawn_width, drawn_height, err)) {
         return false;
     }
     double *picture = malloc((size_t)drawn_width * (size_t)drawn_height * 3 * sizeof *picture);

@@ -235,8 +235,11 @@ void dip_reference_set_time(DipReference *reference, int64_t time_ns) {
     }
 }
 
-bool dip_reference_check_frame(const DipReference *reference, int width, int height,
-                               DipError *err) {
+bool dip_reference_check_frame(const DipReference *reference, const DipPose *pose, int width,
+                               int height, DipError *err) {
+    if (!dip_pose_check(pose, err)) {
+        return false;
+    }
     if (reference->lacks_shadows) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, NULL, "no memory for shadows");
     }

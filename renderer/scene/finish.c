@@ -163,9 +163,12 @@ static bool follow_past(DipFinish *finish, const DipQuality *quality, const DipF
     free_past(past);
     past->size = *size;
     past->history = dip_history_create(&def, err);
+    if (!past->history) {
+        return false;
+    }
     past->depths = dip_lines_alloc(depths_bytes(size));
     past->rgba8 = dip_lines_alloc(picture_bytes(size));
-    if (past->history && past->depths && past->rgba8) {
+    if (past->depths && past->rgba8) {
         memset(past->depths, 0, depths_bytes(size));
         memset(past->rgba8, 0, picture_bytes(size));
         return true;

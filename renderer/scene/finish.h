@@ -21,7 +21,8 @@ extern "C" {
 // The filters of one pane. Use it on one thread at a time.
 typedef struct DipFinish DipFinish;
 
-// The pool is borrowed and must outlive the DipFinish. Fails with MEMORY.
+// The pool is borrowed and must outlive the DipFinish; NULL: the caller's thread works alone. isa:
+// an instruction set that this machine has (dip_isa_available). Fails with MEMORY.
 DIP_API DipFinish *dip_finish_create(DipPool *pool, DipIsa isa, DipError *err);
 // *finish may be NULL and becomes NULL.
 DIP_API void dip_finish_destroy(DipFinish **finish);
@@ -38,12 +39,14 @@ typedef struct DipFinishSize {
     int depths_height;
 } DipFinishSize;
 
-// Returns the sizes for frames of width x height pixels.
+// Returns the sizes for frames of width x height pixels. quality: settings that dip_quality_check
+// accepts, as for dip_finish_follow.
 DIP_API DipFinishSize dip_finish_size(const DipQuality *quality, int width, int height);
 
 // Makes the filters that these settings need for frames of this size, and frees all others, so that
 // settings without filters take no memory. Does nothing if neither settings nor size have changed.
-// Fails with MEMORY; then no filter is left.
+// Fails with RANGE (a size outside 1..DIP_MAX_POST_SIZE), UNSUPPORTED (the instruction set) or
+// MEMORY; then no filter is left.
 DIP_API bool dip_finish_follow(DipFinish *finish, const DipQuality *quality,
                                const DipFinishSize *size, DipError *err);
 

@@ -12,12 +12,12 @@ extern "C" {
 #endif
 
 // Returns the red, green, blue and alpha, in 8-bit sRGB, of the flat colour for levels of
-// 1024 >> level texels. Thread-safe.
+// 1024 >> level texels. level: 0..DIP_MIP_DEBUG_LEVELS - 1. Static storage. Thread-safe.
 DIP_API const uint8_t *dip_mip_debug_colour(int level);
 
 // Creates a texture whose level i replaces levels of 1024 >> i texels. If `pictures` is NULL, all
 // levels are flat colours. Otherwise it has one picture per level; a level whose picture is NULL
-// has a flat colour. Fails with MEMORY.
+// has a flat colour. The pictures are copied. Fails as dip_texture_create does.
 DIP_API DipTexture *dip_mip_debug_create(const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                          DipError *err);
 

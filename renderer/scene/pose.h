@@ -5,6 +5,11 @@
 #ifndef DIP_RENDERER_SCENE_POSE_H
 #define DIP_RENDERER_SCENE_POSE_H
 
+#include "renderer/base/api.h"
+#include "renderer/base/error.h"
+
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -16,6 +21,10 @@ typedef struct DipPose {
     double orientation[4];
     double fov_y_deg; // vertical field of view, 1..170
 } DipPose;
+
+// Checks that a picture can be drawn from a pose. Fails with RANGE if a number is not finite, the
+// orientation is 0 or the field of view is out of range. Thread-safe.
+DIP_API bool dip_pose_check(const DipPose *pose, DipError *err);
 
 #ifdef __cplusplus
 }

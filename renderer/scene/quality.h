@@ -120,6 +120,8 @@ enum { DIP_UPSCALE_BILINEAR, DIP_UPSCALE_BICUBIC, DIP_UPSCALE_EASU };
 enum { DIP_POST_STEP_OFF, DIP_POST_STEP_FXAA, DIP_POST_STEP_SMAA };
 
 // One pane's settings: the index of a step for each setting. Plain data that may be copied freely.
+// All functions but dip_quality_check, dip_quality_equal and dip_quality_count_changes need
+// settings that dip_quality_check accepts.
 typedef struct DipQuality {
     uint8_t step[DIP_SETTING_COUNT];
 } DipQuality;

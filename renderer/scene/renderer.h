@@ -24,10 +24,10 @@ extern "C" {
 #endif
 
 typedef struct DipRendererDef {
-    DipPool *pool; // borrowed; must outlive the renderer
-    DipIsa isa;
-    int width;  // pixels, 1..DIP_MAX_FRAME_SIZE
-    int height; // pixels, 1..DIP_MAX_FRAME_SIZE
+    DipPool *pool; // borrowed; must outlive the renderer; NULL: the callers' threads do the work
+    DipIsa isa;    // an instruction set that this machine has (dip_isa_available)
+    int width;     // pixels, 1..DIP_MAX_FRAME_SIZE
+    int height;    // pixels, 1..DIP_MAX_FRAME_SIZE
     DipQuality quality;
     // Leaves out normal maps, moving clouds and the reflection, so that measurements can compare
     // with renderers that do not have them.
@@ -47,9 +47,11 @@ DIP_API DipRendererDef dip_renderer_default_def(void);
 // Fails with RANGE, CONFLICT (see dip_quality_check), UNSUPPORTED (an instruction set that this
 // machine lacks) or MEMORY.
 DIP_API DipRenderer *dip_renderer_create(const DipRendererDef *def, DipError *err);
+// *renderer may be NULL and becomes NULL.
 DIP_API void dip_renderer_destroy(DipRenderer **renderer);
 
 // Each of these functions takes effect in the next frame. A function that fails changes nothing.
+// They fail as dip_renderer_create does with the same values.
 DIP_API bool dip_renderer_set_quality(DipRenderer *renderer, const DipQuality *quality,
                                       DipError *err);
 DIP_API bool dip_renderer_set_reflection(DipRenderer *renderer, const DipReflectionDef *reflection,
@@ -81,16 +83,17 @@ enum { DIP_FRAMES_BEFORE = 16 };
 
 // Replaces the flat colours of mip debugging by pictures. Picture 0 stands for mip levels of 1024
 // texels and more, picture 1 for 512 texels, and so on; picture 7 stands for 8 texels and fewer. A
-// level whose picture is NULL keeps its flat colour. The pictures are copied.
+// level whose picture is NULL keeps its flat colour. If `pictures` is NULL, all levels get their
+// flat colours back. The pictures are copied. Fails as dip_texture_create does.
 enum { DIP_MIP_DEBUG_LEVELS = 8 };
 DIP_API bool dip_renderer_set_mip_pictures(DipRenderer *renderer,
                                            const DipTextureDef *pictures[DIP_MIP_DEBUG_LEVELS],
                                            DipError *err);
 
 // Draws the scene at a time, in nanoseconds since the start of the path. The frame is the same to
-// the bit for any number of threads and any instruction set. Fails with RANGE (a pose that is not
-// finite, whose orientation is 0 or whose field of view is out of range), OVERSIZED (see
-// dip_pipeline_draw) or MEMORY.
+// the bit for any number of threads and any instruction set. Fails with RANGE (a pose that
+// dip_pose_check refuses, or a scale that would draw more than DIP_MAX_FRAME_SIZE pixels along an
+// axis), OVERSIZED (see dip_pipeline_draw) or MEMORY.
 DIP_API bool dip_renderer_draw(DipRenderer *renderer, const DipScene *scene, const DipPose *pose,
                                int64_t time_ns, DipFrame *frame, DipError *err);
 
@@ -123,12 +126,15 @@ DIP_API bool dip_renderer_draw_frames(DipRenderer *const *renderers, int count,
 // last. Draws only the blocks around the readback's region again, into the frame that the renderer
 // owns: with the pose, time, settings and frame index of the last frame, its pixels do not change.
 // The readback's samples have the sample pattern
-// dip_sample_pattern_of(dip_quality_sample_count(...), dip_pattern_kind(taa, frame_index))
-// (pattern.h). The picture of the reflection that DipReflectionDef.show puts into the frame is not
-// part of the samples, nor are blended surfaces. Takes about as long as the geometry stage of a
-// frame. Fails as dip_renderer_draw does, with RANGE if the region is empty or does not lie in the
-// frame, and with UNSUPPORTED if scale draws a picture of another size, whose pixels are not those
-// of the frame.
+// dip_sample_pattern_of(dip_quality_sample_count(...),
+//                       dip_pattern_kind(dip_quality_alternates(...), frame_index))
+// (pattern.h). With taa=history, they are those of the shifted frame. They show the frame as it is
+// before taa=history, post and sharpen filter it. The picture of the reflection that
+// DipReflectionDef.show puts into the frame is not part of the samples, nor are blended surfaces.
+// Takes about as long as the geometry stage of a frame. Fails as
+// dip_renderer_draw does, with RANGE if the region is empty or does not lie in the frame, with
+// MISSING if readback->samples is NULL, and with UNSUPPORTED if scale draws a picture of another
+// size, whose pixels are not those of the frame.
 DIP_API bool dip_renderer_read_samples(DipRenderer *renderer, const DipScene *scene,
                                        const DipPose *pose, int64_t time_ns,
                                        const DipSampleReadback *readback, DipError *err);

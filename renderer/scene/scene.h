@@ -134,7 +134,8 @@ typedef struct DipSkyLayer {
 
 // The look of sky surfaces that have a colour texture and first texture coordinates (uv0).
 // docs/picture.md, Sky, defines the formulas. The texture's red and green displace the clouds, and
-// its blue is the density of the clouds. The texture should repeat and have linear encoding.
+// its blue is the density of the clouds. The texture should repeat and have linear encoding. All
+// numbers must be finite.
 typedef struct DipSkyDef {
     DipSkyLayer layers[2];
     float perturbation_scale; // repeats of the displacing texture per unit of texture coordinates

@@ -40,6 +40,7 @@ without_floats='
     dip_file_open_code dip_file_read dip_integer_parse
     dip_isa_available dip_isa_name dip_isa_parse dip_lines_alloc dip_lines_free
     dip_nearest_likely dip_nearest_name dip_pages_alloc dip_pool_thread_count
+    dip_srgb_code
     dip_utf8_mend dip_utf8_read dip_utf8_valid_bytes dip_utf8_write dip_version
 
     dip_bc1_choice dip_depth_copy dip_depth_height dip_depth_sample_count dip_depth_width

@@ -61,7 +61,7 @@ double dip_psnr_db(double mean_squared_codes) {
     DIP_FP_MODE_SCOPE();
     DIP_FP_PIN(mean_squared_codes);
     double db =
-        mean_squared_codes > 0.0 ? 10.0 * log10(255.0 * 255.0 / mean_squared_codes) : INFINITY;
+        mean_squared_codes != 0.0 ? 10.0 * log10(255.0 * 255.0 / mean_squared_codes) : INFINITY;
     DIP_FP_PIN(db);
     return db;
 }

@@ -43,7 +43,7 @@ DIP_API void dip_map_sum_add(DipMapSum *sum, const float *map, size_t pixel_coun
                              DipPixelMask mask);
 
 // Returns the peak signal-to-noise ratio in decibels: 10 log10(255^2 / mean_squared_codes). It is
-// infinite if mean_squared_codes is 0.
+// infinite if mean_squared_codes is 0, and NaN if it is NaN or negative.
 DIP_API double dip_psnr_db(double mean_squared_codes);
 
 #ifdef __cplusplus

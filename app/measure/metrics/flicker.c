@@ -63,7 +63,7 @@ DipFlickerResult dip_flicker_result(const DipFlicker *flicker) {
     const double frames = flicker->frame_count;
     const double values = (double)flicker->value_count;
     DipFlickerResult result = {0};
-    for (size_t i = 0; i < flicker->value_count; i++) {
+    for (size_t i = 0; flicker->frame_count > 0 && i < flicker->value_count; i++) {
         result.squared_static += flicker->mean[i] * flicker->mean[i] / values;
         result.squared_flicker += flicker->deviation[i] / (values * frames);
     }

@@ -30,8 +30,8 @@ typedef struct DipFlicker {
     double pair_squares; // Sum of ((e + previous e) / 2)^2 over all values and pairs of frames.
 } DipFlicker;
 
-// value_count is the number of pixels times the number of channels. Returns false when memory runs
-// out; *flicker then owns nothing.
+// value_count is the number of pixels times the number of channels, at least 1. Returns false when
+// memory runs out; *flicker then owns nothing.
 DIP_API bool dip_flicker_init(DipFlicker *flicker, size_t value_count);
 DIP_API void dip_flicker_free(DipFlicker *flicker);
 
@@ -43,7 +43,7 @@ DIP_API void dip_flicker_restart(DipFlicker *flicker);
 DIP_API void dip_flicker_add(DipFlicker *flicker, const float *error_lin, size_t count);
 
 // Mean squares over all values of the burst. A single frame has no previous frame, so its
-// squared_step and squared_two_mean are 0.
+// squared_step and squared_two_mean are 0. A burst without frames has only zeros.
 typedef struct DipFlickerResult {
     double squared_static;  // Square of the mean of e over time.
     double squared_flicker; // Variance of e over time.

@@ -72,6 +72,13 @@ bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degre
     DipSrgbDecodeTable srgb;
     dip_srgb_decode_table(&srgb);
     *flip = (DipFlip){.width = width, .height = height};
+    // Comparisons with NaN are false. More pixels per degree need longer kernels than there is room
+    // for.
+    if (width < 1 || height < 1 ||
+        !(pixels_per_degree >= DIP_FLIP_MIN_PIXELS_PER_DEGREE &&
+          pixels_per_degree <= DIP_FLIP_MAX_PIXELS_PER_DEGREE)) {
+        return false;
+    }
     flip->kernels = malloc(sizeof *flip->kernels);
     if (!flip->kernels) {
         return false;
@@ -353,7 +360,7 @@ void dip_magma(float error, uint8_t rgb[3]) {
         {-50.768525365f, 29.046582821f, 4.234152994f},
         {18.655705066f, -11.489773520f, -5.601961509f},
     };
-    const float t = error < 0.0f ? 0.0f : error > 1.0f ? 1.0f : error;
+    const float t = error > 0.0f ? (error < 1.0f ? error : 1.0f) : 0.0f; // NaN becomes 0, too
     for (int c = 0; c < 3; c++) {
         float value = 0.0f;
         for (int k = 6; k >= 0; k--) {

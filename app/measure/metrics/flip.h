@@ -42,9 +42,10 @@ typedef struct DipFlipAnalysis {
     float *memory; // Owned; holds all planes.
 } DipFlipAnalysis;
 
-// Create a DipFlip and an analysis. pixels_per_degree lies in DIP_FLIP_MIN_PIXELS_PER_DEGREE..
-// DIP_FLIP_MAX_PIXELS_PER_DEGREE. Both functions return false when memory runs out. Even then, the
-// caller must free the object.
+// Create a DipFlip and an analysis. Both functions return false when memory runs out, and
+// dip_flip_init also if width or height is below 1 or pixels_per_degree lies outside
+// DIP_FLIP_MIN_PIXELS_PER_DEGREE..DIP_FLIP_MAX_PIXELS_PER_DEGREE. Even then, the caller must free
+// the object.
 DIP_API bool dip_flip_init(DipFlip *flip, int width, int height, double pixels_per_degree);
 DIP_API bool dip_flip_analysis_init(const DipFlip *flip, DipFlipAnalysis *analysis);
 DIP_API void dip_flip_free(DipFlip *flip);
@@ -65,7 +66,7 @@ DIP_API void dip_flip_compare_block(DipFlip *flip, const DipSrgbPicture *picture
                                     const DipFlipAnalysis *with, float *map);
 
 // Writes the sRGB colour in which maps show a FLIP value in 0..1: from black over purple and orange
-// to light yellow. Values outside 0..1 are clamped. Thread-safe.
+// to light yellow. Values outside 0..1 are clamped; NaN is shown as 0. Thread-safe.
 DIP_API void dip_magma(float error, uint8_t rgb[3]);
 
 #ifdef __cplusplus

@@ -68,7 +68,8 @@ typedef struct DipMeter {
     DipMetricSums sums;
 } DipMeter;
 
-// Returns false when memory runs out; *meter then owns nothing.
+// Returns false when memory runs out, or if dip_flip_init refuses the size or pixels_per_degree;
+// *meter then owns nothing.
 DIP_API bool dip_meter_init(DipMeter *meter, DipMeterKind kind, int width, int height,
                             double pixels_per_degree);
 DIP_API void dip_meter_free(DipMeter *meter);

@@ -9,6 +9,7 @@
 #include "renderer/base/hash.h"
 #include "renderer/base/srgb.h"
 #include "renderer/reference/convergence.h"
+#include "renderer/scene/frame.h"
 
 #include <dirent.h>
 #include <limits.h>
@@ -205,8 +206,34 @@ static void free_halves(DipTruthJob *job) {
     }
 }
 
+static bool check_def(const DipTruthDef *def, DipError *err) {
+    int side = 1;
+    while (side * side < def->samples && side < 64) {
+        side++;
+    }
+    if (def->width < 1 || def->height < 1 || def->width > DIP_MAX_FRAME_SIZE ||
+        def->height > DIP_MAX_FRAME_SIZE) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "size",
+                             "%dx%d is out of range, accepted 1..%d each", def->width, def->height,
+                             DIP_MAX_FRAME_SIZE);
+    }
+    if (side * side != def->samples) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "samples",
+                             "%d, accepted 1, 4, 9, ... 4096", def->samples);
+    }
+    return (def->pixels_per_degree >= DIP_FLIP_MIN_PIXELS_PER_DEGREE &&
+            def->pixels_per_degree <= DIP_FLIP_MAX_PIXELS_PER_DEGREE) ||
+           dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pixels_per_degree", "%g, accepted %g..%g",
+                         def->pixels_per_degree, DIP_FLIP_MIN_PIXELS_PER_DEGREE,
+                         DIP_FLIP_MAX_PIXELS_PER_DEGREE);
+}
+
 DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
                                   bool live, DipError *err) {
+    DIP_FP_MODE_SCOPE();
+    if (!check_def(def, err)) {
+        return NULL;
+    }
     DipTruthJob *job = calloc(1, sizeof *job);
     if (!job) {
         out_of_memory(err);

@@ -76,13 +76,17 @@ typedef struct DipTruthJob DipTruthJob;
 // more than 1 GiB of truths, and it does not fail if the truth cannot be written. Other jobs draw
 // the last level only, and many tiles per step on the pool; if `pool` is NULL, the calling thread
 // draws alone. If the def has a function `draw`, a step draws a whole half instead of tiles.
+//
+// Fails with RANGE (a size outside 1..DIP_MAX_FRAME_SIZE, samples or pixels_per_degree) or MEMORY.
 DIP_API DipTruthJob *dip_truth_job_create(const DipTruthDef *def, const char *cache, DipPool *pool,
                                           bool live, DipError *err);
+// *job may be NULL and becomes NULL.
 DIP_API void dip_truth_job_destroy(DipTruthJob **job);
 
 // Takes a step. Returns RESULT when the truth of a level is complete, and DONE when the truth of
 // the last level is complete and stored. Fails with MEMORY, with the error of the def's function
-// `draw`, with IO if the file cannot be written, or with OVERSIZED if its name is too long.
+// `draw` or of dip_convergence_create, with IO if the file cannot be written, or with OVERSIZED if
+// its name is too long. After a failure, the job can only be destroyed.
 DIP_API DipStep dip_truth_job_step(DipTruthJob *job, DipError *err);
 
 // Returns the truth of the last complete level. Returns NULL if there is none, or while its memory
@@ -100,8 +104,8 @@ DIP_API double dip_truth_job_drawn(const DipTruthJob *job, int *samples);
 typedef bool DipTruthProgress(void *context, double done);
 
 // Gets a truth from the cache, or draws it, with a job that is not live. Fails as
-// dip_truth_job_step does, and with RUNTIME if `progress` stopped the work; *truth is then empty.
-// `progress` may be NULL. The caller frees the truth.
+// dip_truth_job_create and dip_truth_job_step do, and with RUNTIME if `progress` stopped the work;
+// *truth is then empty. `progress` may be NULL. The caller frees the truth.
 DIP_API bool dip_truth_get(DipTruth *truth, const DipTruthDef *def, const char *cache,
                            DipPool *pool, DipTruthProgress *progress, void *context, DipError *err);
 DIP_API void dip_truth_free(DipTruth *truth);

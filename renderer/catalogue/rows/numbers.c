@@ -56,7 +56,11 @@ static void call_srgb(const ModeInputs *inputs, DipHash *hash) {
     const double one = dip_srgb_decode(0.3);
     hash_doubles(hash, decode.linear, 256);
     hash_doubles(hash, &one, 1);
-    dip_hash_bytes(hash, encode.runs, sizeof encode.runs);
+    static uint8_t codes[DIP_LINEAR16_MAX + 1];
+    for (int i = 0; i <= DIP_LINEAR16_MAX; i++) {
+        codes[i] = dip_srgb_code(&encode, i);
+    }
+    dip_hash_bytes(hash, codes, sizeof codes);
 }
 
 static void call_numbers(const ModeInputs *inputs, DipHash *hash) {

@@ -102,7 +102,7 @@ const DipSamplePattern *dip_sample_pattern(int sample_count) {
 
 bool dip_sample_groups_exist(int sample_count, int samples_per_group) {
     return samples_per_group == 1 || (samples_per_group == sample_count && sample_count == 2) ||
-           (samples_per_group <= DIP_MAX_SHARING &&
+           (samples_per_group > 1 && samples_per_group <= DIP_MAX_SHARING &&
             dip_sample_pattern(sample_count)->sharing[samples_per_group][0] != 0);
 }
 

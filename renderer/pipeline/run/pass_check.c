@@ -97,6 +97,24 @@ static bool check_samples(const DipPass *pass, DipError *err) {
                pass->samples_per_group, count);
 }
 
+// Checks the rectangles that are needed of each tile.
+static bool check_tile_regions(const DipPass *pass, DipError *err) {
+    const int across = (pass->target.width + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
+    const int down = (pass->target.height + DIP_TARGET_TILE - 1) / DIP_TARGET_TILE;
+    for (int i = 0; pass->tile_regions && i < across * down; i++) {
+        const DipTileRegion *r = &pass->tile_regions[i];
+        const int bits = r->x0 | r->y0 | r->x1 | r->y1;
+        if (bits && (bits % 8 != 0 || r->x0 >= r->x1 || r->x1 > DIP_TARGET_TILE || r->y0 >= r->y1 ||
+                     r->y1 > DIP_TARGET_TILE)) {
+            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "tile_regions",
+                                 "x %d..%d, y %d..%d of tile %d, accepted multiples of 8 that make "
+                                 "a rectangle within 64x64 pixels, or all 0",
+                                 r->x0, r->x1, r->y0, r->y1, i);
+        }
+    }
+    return true;
+}
+
 // shades: the pass has colours, so that the draw needs a fragment shader.
 static bool check_draw(const DipDraw *draw, bool shades, DipError *err) {
     return is_set(draw->mesh, "draws.mesh", err) &&
@@ -154,6 +172,7 @@ static bool check_readback(const DipSampleReadback *readback, const DipTarget *t
 bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
     if (!is_set(pass, "pass", err) || !check_target(pass, width, height, err) ||
         !dip_rectangle_check(&pass->region, &pass->target, "region", err) ||
+        !check_tile_regions(pass, err) ||
         !dip_rectangle_check(&pass->viewport, &pass->target, "viewport", err) ||
         !dip_rectangle_check(&pass->scissor, &pass->target, "scissor", err) ||
         !check_samples(pass, err) || !check_clear(pass->clear_lin, err) ||

@@ -29,7 +29,8 @@ typedef struct DipPostArena {
     size_t used;
 } DipPostArena;
 
-// Returns the next part, aligned to a cache line; NULL while the arena only counts.
+// Returns the next part, aligned to a cache line; NULL while the arena only counts. If size_t
+// cannot hold the sum, which happens with 32 bits, `used` becomes SIZE_MAX and stays so.
 void *dip_post_take(DipPostArena *arena, size_t count, size_t item_bytes);
 DipPostPlane dip_post_take_plane(DipPostArena *arena, int width, int height);
 

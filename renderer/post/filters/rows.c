@@ -2,10 +2,16 @@
 #include "renderer/base/pages.h"
 #include "renderer/post/filters/filter.h"
 
+#include <stdint.h>
 #include <string.h>
 
 void *dip_post_take(DipPostArena *arena, size_t count, size_t item_bytes) {
     void *part = arena->memory ? arena->memory + arena->used : NULL;
+    const size_t left = SIZE_MAX - arena->used;
+    if (left < DIP_CACHE_LINE || count > (left - DIP_CACHE_LINE) / item_bytes) {
+        arena->used = SIZE_MAX; // no allocation is as large
+        return NULL;
+    }
     const size_t bytes = count * item_bytes;
     arena->used += (bytes + DIP_CACHE_LINE - 1) / DIP_CACHE_LINE * DIP_CACHE_LINE;
     return part;

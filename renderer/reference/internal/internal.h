@@ -364,7 +364,8 @@ bool dip_reference_check_samples(int sample_count, int *side, DipError *err);
 enum { DIP_REF_STOP_PERIOD = 4096 };
 bool dip_reference_stopped(const DipReference *reference, DipError *err);
 
-// Checks that a frame may have this size, and that the reference has all that it draws.
-bool dip_reference_check_frame(const DipReference *reference, int width, int height, DipError *err);
+// Checks that a frame may have this pose and size, and that the reference has all that it draws.
+bool dip_reference_check_frame(const DipReference *reference, const DipPose *pose, int width,
+                               int height, DipError *err);
 
 #endif

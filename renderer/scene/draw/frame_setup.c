@@ -9,33 +9,7 @@
 #include "renderer/scene/materials/sky.h"
 #include "renderer/scene/resources/scene_layout.h"
 
-#include <math.h>
 #include <string.h>
-
-static bool check_pose(const DipPose *pose, DipError *err) {
-    bool finite = isfinite(pose->fov_y_deg);
-    for (int i = 0; i < 3; i++) {
-        finite = finite && isfinite(pose->position_world[i]);
-    }
-    for (int i = 0; i < 4; i++) {
-        finite = finite && isfinite(pose->orientation[i]);
-    }
-    if (!finite) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
-                             "a number is not finite, accepted finite numbers");
-    }
-    const double *q = pose->orientation;
-    if (q[0] == 0.0 && q[1] == 0.0 && q[2] == 0.0 && q[3] == 0.0) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
-                             "the orientation is 0, accepted a quaternion of any other length");
-    }
-    if (pose->fov_y_deg < 1.0 || pose->fov_y_deg > 170.0) {
-        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "pose",
-                             "a field of view of %g degrees is out of range, accepted 1..170",
-                             pose->fov_y_deg);
-    }
-    return true;
-}
 
 // --- passes ------------------------------------------------------------------------------------
 
@@ -193,7 +167,7 @@ static void pose_scene(DipFrameSetup *setup, const DipScene *scene, int64_t time
 bool dip_frame_begin(DipFrameSetup *setup, DipRenderer *renderer, const DipScene *of,
                      const DipPose *pose, int64_t time_ns, const DipFrameSetup *first,
                      const DipSampleReadback *readback, DipFrame *frame, DipError *err) {
-    if (!check_pose(pose, err) || !dip_renderer_follow_scale(renderer, err) ||
+    if (!dip_pose_check(pose, err) || !dip_renderer_follow_scale(renderer, err) ||
         !dip_renderer_adopt_scene(renderer, of, err) ||
         !dip_renderer_follow_settings(renderer, of, err)) {
         return false;

@@ -155,16 +155,29 @@ static bool check_environment(const DipEnvironmentDef *environment, DipError *er
                        (double)DIP_MAX_ENVIRONMENT_LIN, NULL, "environment", err);
 }
 
-static bool check_sky(const DipSkyDef *sky, DipError *err) {
-    for (int i = 0; i < 2; i++) {
-        const double speed = sky->layers[i].speed_per_min;
-        if (!(speed >= -DIP_MAX_SKY_SPEED && speed <= DIP_MAX_SKY_SPEED)) {
-            return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "sky",
-                                 "speed_per_min %g is out of range, accepted -%d..%d", speed,
-                                 DIP_MAX_SKY_SPEED, DIP_MAX_SKY_SPEED);
-        }
+static bool check_sky_layer(const DipSkyLayer *layer, DipError *err) {
+    const double speed = layer->speed_per_min;
+    if (!(speed >= -DIP_MAX_SKY_SPEED && speed <= DIP_MAX_SKY_SPEED)) {
+        return dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "sky",
+                             "speed_per_min %g is out of range, accepted -%d..%d", speed,
+                             DIP_MAX_SKY_SPEED, DIP_MAX_SKY_SPEED);
     }
-    return true;
+    return check_floats(&layer->scale, 1, 1, NULL, "sky.scale", err) &&
+           check_floats(&layer->perturbation_widths, 1, 1, NULL, "sky.perturbation_widths", err);
+}
+
+static bool check_sky(const DipSkyDef *sky, DipError *err) {
+    return check_sky_layer(&sky->layers[0], err) && check_sky_layer(&sky->layers[1], err) &&
+           check_floats(&sky->perturbation_scale, 1, 1, NULL, "sky.perturbation_scale", err) &&
+           check_floats(&sky->blend, 1, 1, NULL, "sky.blend", err) &&
+           check_floats(&sky->clear, 1, 1, NULL, "sky.clear", err) &&
+           check_floats(&sky->dense, 1, 1, NULL, "sky.dense", err) &&
+           check_floats(&sky->overcast, 1, 1, NULL, "sky.overcast", err) &&
+           check_floats(sky->zenith_lin, 3, 3, NULL, "sky.zenith_lin", err) &&
+           check_floats(sky->horizon_lin, 3, 3, NULL, "sky.horizon_lin", err) &&
+           check_floats(sky->cloud_lin, 3, 3, NULL, "sky.cloud_lin", err) &&
+           check_floats(sky->glare_lin, 3, 3, NULL, "sky.glare_lin", err) &&
+           check_floats(sky->tint_lin, 3, 3, NULL, "sky.tint_lin", err);
 }
 
 // Checks a mesh's material and its attributes, except for its positions.

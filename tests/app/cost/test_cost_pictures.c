@@ -3,6 +3,7 @@
 #include "app/files/pictures.h"
 #include "assets/picture.h"
 
+#include <limits.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -157,6 +158,39 @@ static void pfm_rows_go_from_the_bottom_up(void **state) {
     remove("test_cost_pictures.pfm");
 }
 
+// stb_image_write counts bytes with ints, and a JPEG has 16 bits for its width and height.
+static void pictures_that_no_file_can_hold_are_refused(void **state) {
+    (void)state;
+    static const int sizes[][2] = {
+        {0, 1},       {1, 0},         {-1, 1},        {1, -1},
+        {1 << 30, 1}, {65536, 65536}, {16384, 16385}, {INT_MAX, INT_MAX}};
+    static const uint8_t pixel[4];
+    static const float light[3];
+    unsigned char *bytes;
+    size_t size_bytes;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const int width = sizes[i][0], height = sizes[i][1];
+        DipError errors[2] = {{0}};
+        assert_false(dip_png_encode(pixel, SIZE_MAX / 2, width, height, &bytes, &size_bytes));
+        assert_false(dip_png_encode_indexed(pixel, pixel, width, height, &bytes, &size_bytes));
+        assert_false(dip_jpeg_encode(pixel, SIZE_MAX / 2, width, height, 90, &bytes, &size_bytes));
+        assert_false(
+            dip_png_write_rgba8("none.png", pixel, SIZE_MAX / 2, width, height, &errors[0]));
+        assert_false(dip_pfm_write("none.pfm", light, width, height, &errors[1]));
+        for (int e = 0; e < 2; e++) {
+            assert_int_equal(errors[e].code, DIP_ERROR_RANGE);
+            assert_string_equal(errors[e].key, "width");
+        }
+    }
+    DipError err = {0};
+    assert_false(dip_pfm_write("none.pfm", NULL, 1, 1, &err));
+    assert_int_equal(err.code, DIP_ERROR_MISSING);
+    assert_false(dip_jpeg_encode(pixel, SIZE_MAX / 2, 65536, 1, 90, &bytes, &size_bytes));
+    assert_false(dip_jpeg_encode(pixel, SIZE_MAX / 2, 1, 65536, 90, &bytes, &size_bytes));
+    assert_false(dip_jpeg_encode(pixel, 4, 1, 1, 0, &bytes, &size_bytes));
+    assert_false(dip_jpeg_encode(pixel, 4, 1, 1, 101, &bytes, &size_bytes));
+}
+
 // --- fitting into a page -------------------------------------------------------------------------
 
 enum { CROP = 100, MAP = 20, FRAME = 300 }; // Bytes.
@@ -241,6 +275,7 @@ int main(void) {
         cmocka_unit_test(jpegs_are_close_to_the_picture),
         cmocka_unit_test(pngs_are_written_from_pixels),
         cmocka_unit_test(pfm_rows_go_from_the_bottom_up),
+        cmocka_unit_test(pictures_that_no_file_can_hold_are_refused),
         cmocka_unit_test(what_does_not_fit_is_left_out_and_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

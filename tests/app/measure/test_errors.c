@@ -73,6 +73,8 @@ static void psnr_of_known_errors(void **state) {
     expect_near("psnr", psnr(dip_pattern_gradient, dip_pattern_coarse_gradient), 38.1308036, 1e-4);
     expect_near("psnr", psnr(dip_pattern_hash, dip_pattern_other_hash), 7.6738610, 1e-4);
     assert_true(isinf(psnr(dip_pattern_hash, dip_pattern_hash)));
+    assert_true(isnan(dip_psnr_db(NAN)));
+    assert_true(isnan(dip_psnr_db(-1.0)));
 }
 
 static void fill_truth_lin(double value) {
@@ -246,6 +248,9 @@ static void static_error_and_flicker_of_alternating_errors(void **state) {
     expect_near("two frames", result.squared_two_mean, m * m, 1e-12);
     const DipFlickerResult single = flicker_of(1);
     assert_true(single.squared_flicker == 0.0 && single.squared_step == 0.0);
+    const DipFlickerResult none = flicker_of(0);
+    assert_true(none.squared_static == 0.0 && none.squared_flicker == 0.0);
+    assert_true(none.squared_step == 0.0 && none.squared_two_mean == 0.0);
 }
 
 int main(void) {

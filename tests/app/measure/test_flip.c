@@ -198,6 +198,38 @@ static void extreme_resolutions(void **state) {
     }
 }
 
+// At other resolutions, the filters would be longer than there is room for, or have no width.
+static void resolutions_out_of_range_are_refused(void **state) {
+    (void)state;
+    const double resolutions[] = {NAN,
+                                  -67.0,
+                                  0.0,
+                                  nextafter(DIP_FLIP_MIN_PIXELS_PER_DEGREE, 0.0),
+                                  nextafter(DIP_FLIP_MAX_PIXELS_PER_DEGREE, 1e9),
+                                  1e9};
+    for (size_t i = 0; i < sizeof resolutions / sizeof *resolutions; i++) {
+        DipFlip flip;
+        assert_false(dip_flip_init(&flip, 8, 8, resolutions[i]));
+        dip_flip_free(&flip);
+    }
+    for (int i = 0; i < 2; i++) {
+        DipFlip flip;
+        assert_false(dip_flip_init(&flip, i, 1 - i, DIP_FLIP_PIXELS_PER_DEGREE));
+        dip_flip_free(&flip);
+    }
+}
+
+static void values_outside_the_palette_are_clamped(void **state) {
+    (void)state;
+    const float values[] = {-1.0f, -INFINITY, NAN, 2.0f, INFINITY};
+    for (int i = 0; i < 5; i++) {
+        uint8_t found[3], expected[3];
+        dip_magma(values[i], found);
+        dip_magma(i < 3 ? 0.0f : 1.0f, expected);
+        assert_memory_equal(found, expected, 3);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(filter_weights),
@@ -208,6 +240,8 @@ int main(void) {
         cmocka_unit_test(noise),
         cmocka_unit_test(identical_pictures_are_0),
         cmocka_unit_test(extreme_resolutions),
+        cmocka_unit_test(resolutions_out_of_range_are_refused),
+        cmocka_unit_test(values_outside_the_palette_are_clamped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

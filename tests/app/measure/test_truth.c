@@ -4,6 +4,7 @@
 #include "app/measure/metrics/truth.h"
 #include "renderer/reference/reference.h"
 #include "renderer/catalogue/scenes.h"
+#include "renderer/scene/frame.h"
 
 #include <dirent.h>
 #include <setjmp.h>
@@ -395,6 +396,41 @@ static void a_cache_whose_name_is_too_long_is_refused(void **state) {
     assert_string_equal(err.message, "the name is too long");
 }
 
+static void truths_that_cannot_be_drawn_are_refused(void **state) {
+    (void)state;
+    enum { CASES = 9 };
+    DipTruthDef defs[CASES];
+    static const char *const keys[CASES] = {"size",
+                                            "size",
+                                            "size",
+                                            "samples",
+                                            "samples",
+                                            "samples",
+                                            "pixels_per_degree",
+                                            "pixels_per_degree",
+                                            "pixels_per_degree"};
+    for (int i = 0; i < CASES; i++) {
+        defs[i] = make_def(4);
+    }
+    defs[0].width = -1;
+    defs[1].height = 0;
+    defs[2].height = DIP_MAX_FRAME_SIZE + 1;
+    defs[3].samples = 0;
+    defs[4].samples = 5;
+    defs[5].samples = 65 * 65;
+    defs[6].pixels_per_degree = NAN;
+    defs[7].pixels_per_degree = DIP_FLIP_MIN_PIXELS_PER_DEGREE * 0.999;
+    defs[8].pixels_per_degree = DIP_FLIP_MAX_PIXELS_PER_DEGREE * 1.001;
+    for (int i = 0; i < CASES; i++) {
+        DipTruth truth;
+        DipError err = {0};
+        assert_false(dip_truth_get(&truth, &defs[i], NULL, pool, NULL, NULL, &err));
+        assert_int_equal(err.code, DIP_ERROR_RANGE);
+        assert_string_equal(err.key, keys[i]);
+        assert_null(truth.rgb_lin);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_cache_returns_the_truth_that_was_drawn),
@@ -408,6 +444,7 @@ int main(void) {
         cmocka_unit_test(a_truth_compared_with_itself_has_no_error),
         cmocka_unit_test(the_default_folder_follows_the_environment),
         cmocka_unit_test(a_cache_whose_name_is_too_long_is_refused),
+        cmocka_unit_test(truths_that_cannot_be_drawn_are_refused),
     };
     char folder[] = "/tmp/test_truth.XXXXXX";
     DipError err = {0};

@@ -2,6 +2,7 @@
 // must name the field at fault.
 #include "pass_stage.h"
 
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,6 +39,16 @@ SPOIL(three_samples, pass->sample_count = 3)
 SPOIL(no_samples, pass->sample_count = 0)
 SPOIL(unknown_pattern, pass->pattern = DIP_PATTERN_KINDS)
 SPOIL(uneven_groups, pass->samples_per_group = 3)
+SPOIL(negative_groups, pass->samples_per_group = -2)
+SPOIL(very_negative_groups, pass->samples_per_group = INT_MIN)
+
+enum { TILES = 2 * 2 };
+static const DipTileRegion uneven_tile[TILES] = {{0, 0, 12, 8}};
+static const DipTileRegion large_tile[TILES] = {[TILES - 1] = {0, 0, 72, 64}};
+static const DipTileRegion empty_tile[TILES] = {{8, 0, 8, 64}};
+SPOIL(uneven_tile_region, pass->tile_regions = uneven_tile)
+SPOIL(large_tile_region, pass->tile_regions = large_tile)
+SPOIL(empty_tile_region, pass->tile_regions = empty_tile)
 SPOIL(too_many_planes, pass->clip_plane_count = DIP_MAX_CLIP_PLANES + 1)
 SPOIL(negative_draws, pass->draw_count = -1)
 SPOIL(no_draws, pass->draws = NULL)
@@ -76,6 +87,11 @@ static const BadPass bad_passes[] = {
     {"sample_count", DIP_ERROR_RANGE, no_samples},
     {"pattern", DIP_ERROR_RANGE, unknown_pattern},
     {"samples_per_group", DIP_ERROR_CONFLICT, uneven_groups},
+    {"samples_per_group", DIP_ERROR_CONFLICT, negative_groups},
+    {"samples_per_group", DIP_ERROR_CONFLICT, very_negative_groups},
+    {"tile_regions", DIP_ERROR_RANGE, uneven_tile_region},
+    {"tile_regions", DIP_ERROR_RANGE, large_tile_region},
+    {"tile_regions", DIP_ERROR_RANGE, empty_tile_region},
     {"clip_plane_count", DIP_ERROR_RANGE, too_many_planes},
     {"readback.region", DIP_ERROR_RANGE, readback_of_nothing},
     {"readback.region", DIP_ERROR_RANGE, readback_beyond},

@@ -1,5 +1,6 @@
 // The filters against plain models in double precision, against each other over instruction sets
 // and threads, and on pictures whose result is known.
+#include "renderer/post/filters/filter.h"
 #include "renderer/post/post.h"
 #include "tests/renderer/post/post_model.h"
 
@@ -381,10 +382,33 @@ static void what_cannot_be_filtered_is_refused(void **state) {
     def = good;
     def.filter = DIP_POST_COUNT;
     expect_refusal(def, DIP_ERROR_UNKNOWN, "accepted");
+    assert_string_equal(dip_post_name(DIP_POST_COUNT), "?");
+    def = good;
+    def.isa = DIP_ISA_COUNT;
+    expect_refusal(def, DIP_ERROR_UNSUPPORTED, "the instruction set ?");
     DipPostFilter filter;
     assert_true(dip_post_parse("smaa", &filter));
     assert_int_equal(filter, DIP_POST_SMAA);
     assert_false(dip_post_parse("SMAA", &filter));
+}
+
+// With 32 bits, the parts of a history of 16384x16384 pixels are more than size_t can count.
+static void sums_of_parts_do_not_wrap(void **state) {
+    (void)state;
+    DipPostArena arena = {0};
+    dip_post_take(&arena, 3, 5);
+    assert_int_equal(arena.used, 64);
+    for (int i = 0; i < 3; i++) {
+        const size_t before = arena.used;
+        dip_post_take(&arena, SIZE_MAX / 10, 4);
+        assert_true(arena.used > before);
+    }
+    assert_true(arena.used == SIZE_MAX);
+    dip_post_take(&arena, 1, 1);
+    assert_true(arena.used == SIZE_MAX);
+    arena.used = 0;
+    dip_post_take(&arena, SIZE_MAX / 2, 4);
+    assert_true(arena.used == SIZE_MAX);
 }
 
 int main(void) {
@@ -398,6 +422,7 @@ int main(void) {
         cmocka_unit_test(all_machines_filter_the_same_bits),
         cmocka_unit_test(runs_leave_no_trace),
         cmocka_unit_test(what_cannot_be_filtered_is_refused),
+        cmocka_unit_test(sums_of_parts_do_not_wrap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,6 +16,8 @@ typedef struct Fixture {
 
 static bool make_filter(void *context, DipError *err) {
     Fixture *fixture = context;
+    // An error of an earlier call, which the error of this call must replace.
+    dip_error_set(err, DIP_ERROR_RANGE, NULL, 0, "earlier", "an earlier error");
     const DipPostDef def = {fixture->filter, 40, 30, 40, 30, 0.5f, dip_isa_best(), NULL};
     fixture->post = dip_post_create(&def, err);
     return fixture->post != NULL;

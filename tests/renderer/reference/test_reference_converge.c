@@ -169,6 +169,13 @@ static void converge_tiles(const DipTestScene *scene, int width, int height, int
     assert_false(dip_convergence_add_tile(convergence, 0, sample_count + 1, 6, 1.0,
                                           &rgb_lin[0][0][0], NULL, &err));
     assert_int_equal(err.code, DIP_ERROR_RANGE);
+    const int outside[] = {-1, dip_convergence_tile_count(convergence)};
+    for (int i = 0; i < 2; i++) {
+        assert_false(dip_convergence_add_tile(convergence, outside[i], sample_count, 6, 1.0,
+                                              &rgb_lin[0][0][0], NULL, &err));
+        assert_int_equal(err.code, DIP_ERROR_RANGE);
+        assert_string_equal(err.key, "tile");
+    }
     dip_convergence_destroy(&convergence);
     dip_reference_destroy(&reference);
 }

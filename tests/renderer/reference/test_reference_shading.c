@@ -2,9 +2,11 @@
 // Jacobian is known, compares the level of detail with the value that follows from the Jacobian.
 // Also tests light, light maps, alpha, and which input the reference refuses.
 #include "renderer/pipeline/pattern.h"
+#include "renderer/reference/convergence.h"
 #include "tests/renderer/pipeline/screen.h"
 #include "renderer/catalogue/random.h"
 
+#include <limits.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -320,8 +322,8 @@ static void invalid_input_is_refused(void **state) {
     DipError err;
     DipReference *reference = dip_reference_create(&scene.def, &err);
     assert_non_null(reference);
-    static const int bad_counts[] = {0, -1, 2, 8, 255};
-    for (int i = 0; i < 5; i++) {
+    static const int bad_counts[] = {0, -1, 2, 8, 255, INT_MAX};
+    for (int i = 0; i < 6; i++) {
         assert_false(dip_reference_converge(reference, &scene.pose, 64, 64, bad_counts[i], 0,
                                             &picture[0][0][0], &err));
         assert_int_equal(err.code, DIP_ERROR_RANGE);
@@ -341,6 +343,57 @@ static void invalid_input_is_refused(void **state) {
     scene.objects[0].mesh = 0;
     scene.meshes[0].vertex_count = 3;
     assert_null(dip_reference_create(&scene.def, NULL));
+    dip_test_scene_free(&scene);
+}
+
+static void poses_from_which_nothing_can_be_drawn_are_refused(void **state) {
+    (void)state;
+    DipTestScene scene;
+    dip_screen_begin(&scene);
+    dip_screen_add_cover(&scene, dip_screen_add_white(&scene), 1.0f, 1.0f);
+    DipReference *reference = dip_reference_create(&scene.def, NULL);
+    assert_non_null(reference);
+    const DipQuality quality = dip_quality_default();
+    for (int i = 0; i < 4; i++) {
+        DipPose pose = scene.pose;
+        if (i == 0) {
+            pose.position_world[1] = NAN;
+        } else if (i == 1) {
+            memset(pose.orientation, 0, sizeof pose.orientation);
+        } else {
+            pose.fov_y_deg = i == 2 ? 0.0 : 180.0;
+        }
+        DipError errors[3] = {{0}};
+        assert_false(dip_reference_draw(reference, &quality, &pose, DIP_SCREEN, DIP_SCREEN,
+                                        &picture[0][0][0], &errors[0]));
+        assert_false(dip_reference_converge(reference, &pose, DIP_SCREEN, DIP_SCREEN, 1, 0,
+                                            &picture[0][0][0], &errors[1]));
+        assert_null(dip_convergence_create(reference, &pose, DIP_SCREEN, DIP_SCREEN, &errors[2]));
+        for (int k = 0; k < 3; k++) {
+            assert_int_equal(errors[k].code, DIP_ERROR_RANGE);
+            assert_string_equal(errors[k].key, "pose");
+        }
+    }
+    dip_reference_destroy(&reference);
+    dip_test_scene_free(&scene);
+}
+
+// A reference for truths has neither mip levels nor compressed textures.
+static void a_reference_for_truths_draws_no_settings(void **state) {
+    (void)state;
+    DipTestScene scene;
+    DipError err = {0};
+    DipQuality quality;
+    dip_screen_begin(&scene);
+    const int texture = dip_test_scene_add_texture(&scene, DIP_TEST_NOISE, 8, 8);
+    dip_screen_add_cover(&scene, dip_test_scene_add_material(&scene, texture), 1.0f, 1.0f);
+    DipReference *reference = dip_reference_create_for_truth(&scene.def, NULL, NULL);
+    assert_non_null(reference);
+    assert_true(dip_quality_parse("opt=standard", &quality, NULL));
+    assert_false(dip_reference_draw(reference, &quality, &scene.pose, DIP_SCREEN, DIP_SCREEN,
+                                    &picture[0][0][0], &err));
+    assert_int_equal(err.code, DIP_ERROR_UNSUPPORTED);
+    dip_reference_destroy(&reference);
     dip_test_scene_free(&scene);
 }
 
@@ -382,6 +435,8 @@ int main(void) {
         cmocka_unit_test(alpha_at_the_cutoff_keeps_the_sample),
         cmocka_unit_test(alpha_is_tested_at_centres_and_converges_to_area),
         cmocka_unit_test(invalid_input_is_refused),
+        cmocka_unit_test(poses_from_which_nothing_can_be_drawn_are_refused),
+        cmocka_unit_test(a_reference_for_truths_draws_no_settings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

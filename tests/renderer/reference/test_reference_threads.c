@@ -1,5 +1,6 @@
-// Tests that several threads may see one environment at once: all get the same light. The thread
-// sanitizer runs this test, too.
+// Tests that several threads may see one environment at once: all get the same light. Also tests
+// that another thread can stop a converged picture. The thread sanitizer runs these tests, too.
+#include "renderer/catalogue/scenes.h"
 #include "renderer/reference/internal/internal.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -58,9 +60,40 @@ static void threads_see_the_same_light(void **state) {
     dip_reference_environment_destroy(&alone);
 }
 
+static DipCancelFlag stop;
+
+static void *stop_soon(void *context) {
+    (void)context;
+    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+    atomic_store(&stop, true);
+    return NULL;
+}
+
+// The picture has so many samples that it takes many seconds unless it is stopped.
+static void a_picture_that_is_stopped_is_refused(void **state) {
+    (void)state;
+    enum { SIZE = 32, SAMPLES = 10000 };
+    static double rgb_lin[SIZE * SIZE * 3];
+    DipTestScene scene;
+    DipError err = {0};
+    pthread_t thread;
+    dip_test_scene_make(&scene, DIP_TEST_SCENE_soup);
+    DipReference *reference = dip_reference_create_for_truth(&scene.def, &stop, NULL);
+    assert_non_null(reference);
+    assert_int_equal(pthread_create(&thread, NULL, stop_soon, NULL), 0);
+    const bool drawn =
+        dip_reference_converge(reference, &scene.pose, SIZE, SIZE, SAMPLES, 1, rgb_lin, &err);
+    pthread_join(thread, NULL);
+    assert_false(drawn);
+    assert_int_equal(err.code, DIP_ERROR_RUNTIME);
+    dip_reference_destroy(&reference);
+    dip_test_scene_free(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_see_the_same_light),
+        cmocka_unit_test(a_picture_that_is_stopped_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 // library post; their work is counted, their reasons are given, and without them nothing changes.
 #include "renderer/catalogue/scenes.h"
 #include "renderer/post/post.h"
+#include "renderer/scene/finish.h"
 #include "renderer/scene/renderer.h"
 #include "tests/renderer/scene/image.h"
 
@@ -126,10 +127,32 @@ static void filters_follow_the_size(void **state) {
     assert_true(dip_renderer_resize(renderer, WIDTH, HEIGHT, NULL));
 }
 
+// What the library post refuses is refused with its own error, for a history and for filters.
+static void what_cannot_be_filtered_is_refused(void **state) {
+    (void)state;
+    static const char *const settings[] = {"taa=history", "post=fxaa", "sharpen=low"};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        for (int bad_size = 0; bad_size < 2; bad_size++) {
+            DipQuality quality;
+            DipError err = {0};
+            assert_true(dip_quality_parse(settings[i], &quality, NULL));
+            const DipFinishSize size = dip_finish_size(&quality, bad_size ? 0 : WIDTH, HEIGHT);
+            DipFinish *finish =
+                dip_finish_create(NULL, bad_size ? dip_isa_best() : DIP_ISA_COUNT, NULL);
+            assert_non_null(finish);
+            assert_false(dip_finish_follow(finish, &quality, &size, &err));
+            assert_int_equal(err.code, bad_size ? DIP_ERROR_RANGE : DIP_ERROR_UNSUPPORTED);
+            assert_null(dip_finish_depths(finish));
+            dip_finish_destroy(&finish);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_filtered_in_order),
         cmocka_unit_test(filters_follow_the_size),
+        cmocka_unit_test(what_cannot_be_filtered_is_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

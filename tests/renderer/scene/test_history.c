@@ -357,12 +357,15 @@ static void the_result_does_not_depend_on_threads_and_instruction_sets(void **st
     dip_pool_destroy(&pools[1]);
 }
 
-static void sizes_that_no_picture_has_are_refused(void **state) {
+static void what_no_history_can_have_is_refused(void **state) {
     (void)state;
     DipError err;
     const DipHistoryDef none = {0, 10, dip_isa_best(), NULL};
     assert_null(dip_history_create(&none, &err));
     assert_int_equal(DIP_ERROR_RANGE, err.code);
+    const DipHistoryDef unknown = {10, 10, DIP_ISA_COUNT, NULL};
+    assert_null(dip_history_create(&unknown, &err));
+    assert_int_equal(DIP_ERROR_UNSUPPORTED, err.code);
 }
 
 // --- frames --------------------------------------------------------------------------------------
@@ -571,7 +574,7 @@ int main(void) {
         cmocka_unit_test(the_past_lies_where_the_cameras_saw_it),
         cmocka_unit_test(a_new_picture_has_at_least_a_fifth),
         cmocka_unit_test(the_result_does_not_depend_on_threads_and_instruction_sets),
-        cmocka_unit_test(sizes_that_no_picture_has_are_refused),
+        cmocka_unit_test(what_no_history_can_have_is_refused),
         cmocka_unit_test(histories_begin_anew_where_frames_do_not_follow),
         cmocka_unit_test(a_frame_alone_is_the_frame_after_others),
         cmocka_unit_test(a_history_beside_another_pane_is_the_frame_alone),

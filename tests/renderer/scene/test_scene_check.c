@@ -391,6 +391,21 @@ static void numbers_of_the_scene_have_their_ranges(void **state) {
         assert_refused(NULL, "sky");
         *speed = 0.0;
     }
+    DipSkyDef *sky = &made.def.sky;
+    for (int i = 0; i < 2; i++) {
+        check_finite(&sky->layers[i].scale, 1, NULL, "sky.scale");
+        check_finite(&sky->layers[i].perturbation_widths, 1, NULL, "sky.perturbation_widths");
+    }
+    check_finite(&sky->perturbation_scale, 1, NULL, "sky.perturbation_scale");
+    check_finite(&sky->blend, 1, NULL, "sky.blend");
+    check_finite(&sky->clear, 1, NULL, "sky.clear");
+    check_finite(&sky->dense, 1, NULL, "sky.dense");
+    check_finite(&sky->overcast, 1, NULL, "sky.overcast");
+    check_finite(sky->zenith_lin, 3, NULL, "sky.zenith_lin");
+    check_finite(sky->horizon_lin, 3, NULL, "sky.horizon_lin");
+    check_finite(sky->cloud_lin, 3, NULL, "sky.cloud_lin");
+    check_finite(sky->glare_lin, 3, NULL, "sky.glare_lin");
+    check_finite(sky->tint_lin, 3, NULL, "sky.tint_lin");
 }
 
 int main(void) {

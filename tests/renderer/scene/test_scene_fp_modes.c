@@ -353,6 +353,12 @@ static void call_mip_pictures(DipHash *hash) {
     dip_renderer_destroy(&renderer);
 }
 
+// A mode that takes subnormal numbers for 0 must not take an orientation of them for 0.
+static void call_pose_checks(DipHash *hash) {
+    const DipPose pose = {.orientation = {1e-310, 0.0, 0.0, 1e-310}, .fov_y_deg = 60.0};
+    dip_hash_integer(hash, dip_pose_check(&pose, NULL));
+}
+
 // The reference renderer's picture of a scene that has moved.
 static void call_reference(DipHash *hash) {
     DipReference *reference = dip_reference_create(&moving.def, NULL);
@@ -407,6 +413,7 @@ static const FpWalkEntry entries[] = {
     {"boxes of a motion", call_bounds},
     {"posed descriptions", call_posed_defs},
     {"checks of a motion", call_checks},
+    {"checks of a pose", call_pose_checks},
     {"scales", call_scales},
     {"defaults", call_defaults},
     {"scenes", call_scenes},
