@@ -85,7 +85,7 @@ static const DipExample examples[] = {
     {"diptych cost predict report --size 1920x1080",
      "predicts all combinations of the report in full HD, and times six of them there"},
     {"diptych cost predict report --size 1920x1080 --time 0",
-     "predicts them from the report alone, within seconds"},
+     "predicts them from the report alone, without timing anything"},
     {"diptych cost predict report --category AAA --csv aaa.csv",
      "predicts them on the camera path AAA, and writes a table for other programs"},
     {"diptych cost predict report --size 320x240 --check 20",

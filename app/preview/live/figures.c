@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static const int64_t second_ns = 1000000000;
 static const int64_t graph_ns = 5000000000;
@@ -267,6 +268,83 @@ static void add_work(Lines *lines, const DipCounters *counters) {
     add_count(lines, false, "Objects culled", counters->draws_culled);
 }
 
+// --- effects -------------------------------------------------------------------------------------
+
+typedef struct Effect {
+    const char *title;
+    DipEffect effect;
+} Effect;
+
+#define COUNT_EFFECT(name, title) +1
+enum { EFFECT_COUNT = DIP_EFFECT_LIST(COUNT_EFFECT) };
+#undef COUNT_EFFECT
+
+static void list_effects(const DipEffects *effects, Effect list[EFFECT_COUNT]) {
+    int count = 0;
+#define LIST_EFFECT(name, title) list[count++] = (Effect){title, effects->name};
+    DIP_EFFECT_LIST(LIST_EFFECT)
+#undef LIST_EFFECT
+}
+
+// Returns whether two effects ran, or did not run for the same reason.
+static bool is_alike(const DipEffect *a, const DipEffect *b) {
+    return a->run == b->run && (a->run || strcmp(a->why, b->why) == 0);
+}
+
+// Returns whether the scene has an effect, and a frame has said whether it ran.
+static bool is_in_scene(const DipEffect *effect) {
+    static const char lacks[] = "the scene has no ";
+    return effect->why && strncmp(effect->why, lacks, strlen(lacks)) != 0;
+}
+
+// Appends the titles of all effects that are like the first one, and for effects that did not run
+// the reason.
+static void add_alike(const Effect *first, const Effect *end, char text[DIP_EFFECTS_TEXT_BYTES]) {
+    size_t length = strlen(text);
+    const char *before = first->effect.run ? "Effects that ran: " : "";
+    for (const Effect *e = first; e < end && length < DIP_EFFECTS_TEXT_BYTES; e++) {
+        if (is_in_scene(&e->effect) && is_alike(&e->effect, &first->effect)) {
+            length += (size_t)snprintf(text + length, DIP_EFFECTS_TEXT_BYTES - length, "%s%s",
+                                       before, e->title);
+            before = ", ";
+        }
+    }
+    if (length < DIP_EFFECTS_TEXT_BYTES) {
+        snprintf(text + length, DIP_EFFECTS_TEXT_BYTES - length, "%s%s",
+                 first->effect.run ? "" : ": ", first->effect.run ? "" : first->effect.why);
+    }
+}
+
+void dip_effects_text(const DipEffects *effects, char text[DIP_EFFECTS_TEXT_BYTES]) {
+    Effect list[EFFECT_COUNT];
+    list_effects(effects, list);
+    text[0] = '\0';
+    for (int run = 1; run >= 0; run--) {
+        for (int i = 0; i < EFFECT_COUNT; i++) {
+            bool is_first = list[i].effect.run == run && is_in_scene(&list[i].effect);
+            for (int j = 0; j < i && is_first; j++) {
+                is_first =
+                    !is_in_scene(&list[j].effect) || !is_alike(&list[i].effect, &list[j].effect);
+            }
+            if (is_first) {
+                const size_t length = strlen(text);
+                snprintf(text + length, DIP_EFFECTS_TEXT_BYTES - length, "%s", length ? "\n" : "");
+                add_alike(&list[i], list + EFFECT_COUNT, text);
+            }
+        }
+    }
+}
+
+static void add_effects(Lines *lines, const DipEffects *effects) {
+    Effect list[EFFECT_COUNT];
+    int count = 0;
+    list_effects(effects, list);
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        count += list[i].effect.run;
+    }
+    add(lines, true, "Effects that ran", "%d", count);
+}
+
 int dip_panel_lines(const DipPaneFigures *figures, int pane,
                     DipPanelLine lines[DIP_PANEL_MAX_LINES]) {
     Lines all = {.items = lines};
@@ -280,6 +358,7 @@ int dip_panel_lines(const DipPaneFigures *figures, int pane,
     }
     if (!figures->copied) {
         add_work(&all, &figures->counters);
+        add_effects(&all, &figures->effects);
     }
     return all.count;
 }

@@ -139,9 +139,15 @@ typedef struct DipPanelLine {
 
 enum { DIP_PANEL_MAX_LINES = 24 };
 
-// Fills in the panel's lines of times, errors and work, the most important first, so that a caller
-// with little room can leave out the last lines. Returns the number of lines.
+// Fills in the panel's lines of times, errors, work and effects, the most important first, so that
+// a caller with little room can leave out the last lines. Returns the number of lines.
 int dip_panel_lines(const DipPaneFigures *figures, int pane,
                     DipPanelLine lines[DIP_PANEL_MAX_LINES]);
+
+enum { DIP_EFFECTS_TEXT_BYTES = 900 };
+
+// Writes which effects ran, and below, in a line for each reason, why others did not. Leaves out
+// effects of which the scene has none.
+void dip_effects_text(const DipEffects *effects, char text[DIP_EFFECTS_TEXT_BYTES]);
 
 #endif

@@ -1,6 +1,6 @@
-// Draws the times tab: a graph of the frame times of the last seconds, and lines with the stage
-// times, errors and work of each pane. If the dock is a narrow drawer (DIP_DOCK_DRAWER), the tab
-// has only the lines of the requested pane.
+// Declares the times tab: a graph of the frame times of the last seconds, and lines with the stage
+// times, errors and work of each pane, with a tip that lists the pane's effects. If the dock is a
+// narrow drawer (DIP_DOCK_DRAWER), the tab has only the lines of the requested pane.
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
 #include "app/ui/style.h"
@@ -153,6 +153,19 @@ static void draw_lines(DipUi *ui, const DipPanelLine *lines, int count, DipRect 
     }
 }
 
+// Lets a tip over a pane's lines say which effects ran, and why others did not.
+static void declare_effects(DipUi *ui, const DipWindow *window, int pane, DipRect rect) {
+    const DipPaneFigures *figures = &window->figures[pane];
+    char text[DIP_EFFECTS_TEXT_BYTES] = "";
+    if (!figures->copied) {
+        dip_effects_text(&figures->effects, text);
+    }
+    dip_ui_control(ui, &(DipUiControl){.id = DIP_UI_ID(DIP_UI_TIMES, 1 + pane),
+                                       .rect = rect,
+                                       .tip = text,
+                                       .skips_focus = true});
+}
+
 // Writes a pane's name, the size of its picture, and the scene or the path that shows.
 static void draw_heading(DipUi *ui, const DipWindow *window, int pane, DipRect line) {
     const DipPreviewState *state = window->state;
@@ -168,9 +181,6 @@ void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body) {
     const int graph_width = dip_ui_px(ui, GRAPH_WIDTH);
     const bool has_graph = body.width >= graph_width + 2 * dip_ui_px(ui, COLUMN_WIDTH);
     const int panes = window->layout->side == DIP_DOCK_DRAWER && !has_graph ? 1 : DIP_PANE_COUNT;
-    if (!dip_ui_is_drawing(ui)) {
-        return;
-    }
     DipRect rest = {body.x + margin, body.y + margin / 2, body.width - margin,
                     body.height - margin};
     if (has_graph) {
@@ -184,6 +194,10 @@ void dip_tab_times(DipUi *ui, DipWindow *window, DipRect body) {
         const int count = dip_panel_lines(&window->figures[pane], pane, lines);
         DipRect column = dip_cut_left(&rest, width);
         dip_cut_right(&column, margin);
+        declare_effects(ui, window, pane, column);
+        if (!dip_ui_is_drawing(ui)) {
+            continue;
+        }
         draw_heading(ui, window, pane, dip_cut_top(&column, line));
         dip_cut_top(&column, dip_ui_px(ui, 3));
         draw_lines(ui, lines, count, column);

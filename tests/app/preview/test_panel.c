@@ -1,5 +1,5 @@
-// Tests of the panel's lines of times, errors and work, and of the costs and advice that come from
-// a cost report.
+// Tests of the panel's lines of times, errors, work and effects, and of the costs and advice that
+// come from a cost report.
 #include "app/report/format/formats.h"
 #include "app/preview/live/figures.h"
 #include "app/preview/state/state.h"
@@ -95,6 +95,53 @@ static void mip_colours_have_no_error(void **state) {
     assert_string_equal(value_of(0, "FLIP"), "0.0000");
 }
 
+// The reasons are those of the plan (renderer/scene/plan/plan.c).
+static void the_panel_says_which_effects_ran(void **state) {
+    (void)state;
+    const DipEffect none = {false, "the scene has no metallic-roughness surface"};
+    const DipEffect hidden = {false, "no fragment of it is visible"};
+    char text[DIP_EFFECTS_TEXT_BYTES] = "untouched";
+    dip_effects_text(&figures.effects, text);
+    assert_string_equal(text, ""); // No frame has been drawn yet.
+    assert_string_equal(value_of(0, "Effects that ran"), "0");
+    figures.effects = (DipEffects){.reflection = {true, "water is in view"},
+                                   .alpha_clip = hidden,
+                                   .adaptive_aa = {false, "aaa is off"},
+                                   .lights = hidden,
+                                   .pbr = none,
+                                   .coat = none,
+                                   .sky = {true, "sky is in view"}};
+    dip_effects_text(&figures.effects, text);
+    assert_string_equal(text, "Effects that ran: reflection, clouds\n"
+                              "alpha clip, lights: no fragment of it is visible\n"
+                              "adaptive AA: aaa is off");
+    assert_string_equal(value_of(0, "Effects that ran"), "2");
+    figures.effects.reflection = figures.effects.sky = hidden;
+    dip_effects_text(&figures.effects, text);
+    assert_string_equal(text,
+                        "reflection, alpha clip, lights, clouds: no fragment of it is visible\n"
+                        "adaptive AA: aaa is off");
+}
+
+// A text of all effects, each with a reason of its own, is cut to its room.
+static void a_text_of_all_effects_is_cut_to_its_room(void **state) {
+    (void)state;
+    static char whys[64][80];
+    int count = 0;
+    struct {
+        char text[DIP_EFFECTS_TEXT_BYTES];
+        char guard[4];
+    } room = {.guard = "end"};
+#define SKIP(name, title)                                                                          \
+    memset(whys[count], 'a' + count, sizeof whys[count] - 1);                                      \
+    figures.effects.name = (DipEffect){false, whys[count++]};
+    DIP_EFFECT_LIST(SKIP)
+#undef SKIP
+    dip_effects_text(&figures.effects, room.text);
+    assert_int_equal(strlen(room.text), sizeof room.text - 1);
+    assert_string_equal(room.guard, "end");
+}
+
 // A pane that shows a copy has errors, but neither times nor work.
 static void a_copy_has_errors_only(void **state) {
     (void)state;
@@ -104,6 +151,7 @@ static void a_copy_has_errors_only(void **state) {
     assert_string_equal(value_of(1, "Frame"), "copied: same settings");
     assert_string_equal(value_of(1, "Geometry"), "");
     assert_string_equal(value_of(1, "Texels read"), "");
+    assert_string_equal(value_of(1, "Effects that ran"), "");
     assert_string_equal(value_of(1, "FLIP"), "0.0000");
 }
 
@@ -280,6 +328,8 @@ int main(void) {
         cmocka_unit_test_setup(the_panel_shows_times_and_work, set_up),
         cmocka_unit_test_setup(the_panel_shows_errors_at_rest, set_up),
         cmocka_unit_test_setup(mip_colours_have_no_error, set_up),
+        cmocka_unit_test_setup(the_panel_says_which_effects_ran, set_up),
+        cmocka_unit_test_setup(a_text_of_all_effects_is_cut_to_its_room, set_up),
         cmocka_unit_test_setup(a_copy_has_errors_only, set_up),
         cmocka_unit_test(the_preview_rests_when_nothing_moves),
         cmocka_unit_test(steps_show_their_time_and_change_of_flip),

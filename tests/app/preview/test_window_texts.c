@@ -1,5 +1,5 @@
-// Tests of the texts that the window shows: which time is compared with the target, and that no
-// sentence loses its last words.
+// Tests of the texts that the window shows: which time is compared with the target, which effects
+// ran, and that no sentence loses its last words.
 #include "tests/app/cost/made_report.h"
 #include "tests/app/preview/lone_window.h"
 #include "tests/app/preview/made_live.h"
@@ -188,6 +188,30 @@ static void thumbnails_that_wait_are_marked(void **unused) {
     assert_null(dip_shown_text(DIP_WAITING_MARK, NULL));
 }
 
+// A tip over a pane's figures in the tab Times lists that pane's effects.
+static void a_tip_lists_the_effects_of_a_pane(void **unused) {
+    (void)unused;
+    static const char *const parts[DIP_PANE_COUNT] = {"Effects that ran: clouds",
+                                                      "clouds: no sky is in view"};
+    static const int xs[DIP_PANE_COUNT] = {100, 600};
+    bool whole = false;
+    lone.state.tools.tab = DIP_TAB_TIMES;
+    lone.figures[0].effects.sky = (DipEffect){true, "sky is in view"};
+    lone.figures[1].effects.sky = (DipEffect){false, "no sky is in view"};
+    draw(1282, 720);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        assert_null(dip_shown_text(parts[p], NULL));
+    }
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        dip_lone_mouse(DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_LEFT, xs[p], 600);
+        lone.input.now_ns += 1000000000;
+        draw(1282, 720);
+        assert_non_null(dip_shown_text(parts[p], &whole));
+        assert_true(whole);
+        assert_null(dip_shown_text(parts[1 - p], NULL));
+    }
+}
+
 int main(void) {
 #define TEXT_TEST(name) cmocka_unit_test_setup_teardown(name, dip_lone_set_up, dip_lone_tear_down)
     const struct CMUnitTest tests[] = {
@@ -196,6 +220,7 @@ int main(void) {
         TEXT_TEST(a_map_without_values_has_no_scale),
         TEXT_TEST(tables_of_maps_wait_while_pictures_move),
         TEXT_TEST(thumbnails_that_wait_are_marked),
+        TEXT_TEST(a_tip_lists_the_effects_of_a_pane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
