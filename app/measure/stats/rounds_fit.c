@@ -176,45 +176,66 @@ static void running_median(const double *values, int count, int window, bool wit
     }
 }
 
-// Returns the window with which the running median best predicts each value from its neighbours,
-// most of which were timed in other rounds. A shorter window must be 3 % better than a longer one,
-// since the relative cost of most settings is the same along the whole path.
-static int choose_window(DipTimesWork *w, const double *values, int count) {
-    const int windows[] = {2 * count + 1, 31, 15, 7};
-    int best = windows[0];
-    double least = INFINITY;
-    for (int k = 0; k < 4 && count > 2; k++) {
-        running_median(values, count, windows[k], true, w->smooth, w->of_visit);
-        for (int i = 0; i < count; i++) {
-            w->rest[i] = fabs(values[i] - w->smooth[i]);
+// Writes for each value the median of all values of the same frame. If `without` is true, leaves
+// out the value itself, unless the frame has no other.
+static void median_of_frames(const double *values, const int *frames, int count, bool without,
+                             double *smooth, double *sorted) {
+    for (int first = 0, end; first < count; first = end) {
+        int in_frame = 0;
+        for (end = first; end < count && frames[end] == frames[first]; end++) {
+            const int at = find_sorted(sorted, in_frame, values[end]);
+            memmove(sorted + at + 1, sorted + at, (size_t)(in_frame++ - at) * sizeof *sorted);
+            sorted[at] = values[end];
         }
-        // A very wrong prediction comes from a disturbed visit, so its error counts for no more
-        // than 3 times the median error.
-        double sum = 0.0;
-        const double typical = dip_median(w->rest, count);
-        for (int i = 0; i < count; i++) {
-            sum += fmin(w->rest[i], 3.0 * typical);
-        }
-        if (sum < 0.97 * least) {
-            least = sum;
-            best = windows[k];
+        for (int i = first; i < end; i++) {
+            const int left_out =
+                without && in_frame > 1 ? find_sorted(sorted, in_frame, values[i]) : in_frame;
+            smooth[i] = median_of_sorted(sorted, in_frame, left_out);
         }
     }
-    return best;
 }
 
-// Writes for each value the median of all values of the same frame.
-static void median_of_frames(const double *values, const int *frames, int count, double *smooth,
-                             double *scratch) {
-    for (int first = 0, end; first < count; first = end) {
-        for (end = first; end < count && frames[end] == frames[first]; end++) {
-            scratch[end - first] = values[end];
-        }
-        const double middle = dip_median(scratch, end - first);
-        for (int i = first; i < end; i++) {
-            smooth[i] = middle;
+// Returns the sum of the distances of the values from their predictions in w->smooth. A very wrong
+// prediction comes from a disturbed visit, so its distance counts for no more than 3 times the
+// median distance.
+static double misses_of(DipTimesWork *w, const double *values, int count) {
+    for (int i = 0; i < count; i++) {
+        w->rest[i] = fabs(values[i] - w->smooth[i]);
+    }
+    double sum = 0.0;
+    const double typical = dip_median(w->rest, count);
+    for (int i = 0; i < count; i++) {
+        sum += fmin(w->rest[i], 3.0 * typical);
+    }
+    return sum;
+}
+
+// Chooses how log ratios are smoothed along the path: what predicts each value best from the
+// others, most of which were timed in other rounds. That is a running median with a window
+// (w->window), or, if there are at least 3 pairs per frame, the median of a frame (w->repeats). A
+// choice that joins fewer values must be 3 % better than one that joins more, since the relative
+// cost of most settings is the same along the whole path.
+static void choose_smoothing(DipTimesWork *w, int count) {
+    const int frames = w->times->frames;
+    const int windows[] = {2 * count + 1, 31, 15, 7};
+    const int per_frame = count < frames ? 1 : count / frames;
+    double least = INFINITY;
+    w->window = windows[0];
+    for (int k = 0; k < 4 && count > 2; k++) {
+        const int window = k == 0 ? windows[0] : windows[k] * per_frame | 1;
+        running_median(w->logs, count, window, true, w->smooth, w->of_visit);
+        const double misses = misses_of(w, w->logs, count);
+        if (misses < 0.97 * least) {
+            least = misses;
+            w->window = window;
         }
     }
+    w->repeats = w->times->complete;
+    if (!w->repeats && count >= 3 * frames) {
+        median_of_frames(w->logs, w->pair_frames, count, true, w->smooth, w->of_visit);
+        w->repeats = misses_of(w, w->logs, count) < 0.97 * least;
+    }
+    w->window = w->repeats ? 0 : w->window;
 }
 
 // Returns the offset that all pairs have in common after the smoothed log ratios were subtracted:
@@ -274,7 +295,7 @@ static void take_off_noise(double *ms, int frames, double noise_variance) {
 // to w->ratio. Returns the variance of the noise in w->ratio.
 static double fit_ratios(DipTimesWork *w, int count) {
     if (w->repeats) {
-        median_of_frames(w->logs, w->pair_frames, count, w->smooth, w->of_visit);
+        median_of_frames(w->logs, w->pair_frames, count, false, w->smooth, w->of_visit);
     } else {
         running_median(w->logs, count, w->window, false, w->smooth, w->of_visit);
     }
@@ -323,8 +344,7 @@ static bool find_values(DipTimesWork *w, int set, double logs[DIP_TIMES_VALUE_CO
         return false;
     }
     if (set < 0 && count > 0) {
-        w->repeats = w->times->complete || count >= 3 * frames;
-        w->window = w->repeats ? 0 : choose_window(w, w->logs, count);
+        choose_smoothing(w, count);
     }
     const double noise = count > 0 ? fit_ratios(w, count) : 0.0;
     double base_total = 0.0, total = 0.0, worst = 0.0;

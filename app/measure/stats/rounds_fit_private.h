@@ -89,8 +89,7 @@ typedef struct DipTimesWork {
     DipTimesPair *pairs;
     int pair_count, visit_count;
     int window;    // Number of log ratios in the subject's running median; 0 if `repeats` is true.
-    bool repeats;  // True if every round draws all frames, or if there are at least 3 pairs per
-                   // frame.
+    bool repeats;  // True if each frame has a median of its own (choose_smoothing).
     bool is_base;  // True if the subject is the base itself, which has no pairs.
     double *level; // [(1 + units) * frames]: levels from all units, then with each left out.
     double *missing; // [1 + units]: variance of the true levels along the path, minus the variance
