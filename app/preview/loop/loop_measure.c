@@ -70,7 +70,7 @@ static bool wants_errors(const DipPreview *preview) {
 
 static void close_errors(DipPreview *preview) {
     preview->state.tools.open = preview->state.wants_errors = false;
-    dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
+    dip_tool_state_choose_map(&preview->state.tools, DIP_MAP_NONE);
     preview->resized = true;
 }
 

@@ -184,24 +184,12 @@ static void next_comparison(const DipAct *act) {
 
 static void next_map(const DipAct *act) {
     DipToolState *tools = &act->state->tools;
-    tools->map = (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT);
-    if (tools->map != DIP_MAP_NONE) {
-        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // A map needs both panes side by side.
-    }
+    dip_tool_state_choose_map(
+        tools, (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT));
 }
 
-// Doubles or halves the brightness if a map is chosen. Otherwise changes the gain or the divider.
 static void adjust(const DipAct *act) {
-    enum { MOST_BRIGHTNESS = 1 << (DIP_BRIGHTNESS_COUNT - 1) };
-    DipToolState *tools = &act->state->tools;
-    if (tools->map != DIP_MAP_NONE) {
-        const double brightness = tools->brightness * (act->reverse ? 0.5 : 2.0);
-        tools->brightness = brightness < 1.0               ? 1.0
-                            : brightness > MOST_BRIGHTNESS ? MOST_BRIGHTNESS
-                                                           : brightness;
-    } else {
-        dip_tool_state_adjust(tools, act->reverse ? -1 : 1);
-    }
+    dip_tool_state_adjust(&act->state->tools, act->reverse ? -1 : 1);
 }
 
 static void blink(const DipAct *act) {

@@ -23,7 +23,7 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                  .y = -1,
                                  .divider = 0.5,
                                  .gain = 8,
-                                 .brightness = 1.0};
+                                 .brightness = 1};
     state.budget_ms = state.refresh_ms = 1000.0 / 60.0;
     return state;
 }

@@ -49,15 +49,6 @@ const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version) {
     return &maps->truth;
 }
 
-// --- what the user chooses -----------------------------------------------------------------------
-
-void dip_maps_choose(DipToolState *tools, DipMap map) {
-    tools->map = map;
-    if (map != DIP_MAP_NONE) {
-        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE;
-    }
-}
-
 // --- measuring work ------------------------------------------------------------------------------
 
 static bool make_arrays(DipMapWork *work, const DipFrame *frame) {
@@ -284,6 +275,5 @@ double dip_maps_end(const DipMaps *maps, const DipToolState *tools) {
             greatest = value > greatest ? value : greatest;
         }
     }
-    const double brightness = tools->brightness >= 1.0 ? tools->brightness : 1.0;
-    return dip_map_round_up(greatest) / brightness;
+    return dip_map_round_up(greatest) / dip_max(1, tools->brightness);
 }
