@@ -246,7 +246,6 @@ static void fly(DipPreview *preview, int64_t elapsed_ns) {
     const DipPilotTurn turn = {.session = preview->def.session,
                                .keys = dip_keys_camera(&preview->held),
                                .controllers = &preview->controllers,
-                               .speed_m_per_s = preview->def.flying_speed_m_per_s,
                                .elapsed_ns = elapsed_ns};
     preview->flying = dip_pilot_turn(&preview->state, &turn, &preview->pose);
     preview->state.scene_changes += preview->flying;

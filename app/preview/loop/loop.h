@@ -49,7 +49,6 @@ typedef struct DipPreviewDef {
     DipPrices *prices;           // Borrowed; with NULL, the preview makes prices of its own.
     bool measures_prices;        // Rough prices (live_prices.h) are measured while nothing moves.
     const char *cache;           // Borrowed folder of cached truths (truth.h), or NULL.
-    double flying_speed_m_per_s; // Speed of the free camera until the user changes the speed.
     DipPreviewControl control;   // control.context is borrowed.
     double ui_scale;    // Value of --ui-scale, which enlarges controls; 0 without the option.
     bool hides_panel;   // The window shows nothing but the panes at first.

@@ -14,12 +14,6 @@ void dip_loop_enter_scene(DipPreview *preview) {
     }
 }
 
-// Gives the free camera the speed and the kind of dragging that suit the scene.
-static void begin_flight(DipPreview *preview) {
-    preview->def.flying_speed_m_per_s = dip_flying_speed(preview->def.session);
-    dip_pilot_enter(&preview->state.flight, preview->def.session);
-}
-
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;
@@ -45,7 +39,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     state->look = preview->drawn_look = 0;
     state->play_ns = 0;
     state->manual = false;
-    begin_flight(preview);
+    dip_pilot_enter(&state->flight, session);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         dip_figures_forget(&preview->figures, p);
     }
@@ -125,7 +119,7 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     }
     dip_loop_enter_scene(preview);
     preview->drawn_look = preview->state.look;
-    begin_flight(preview);
+    dip_pilot_enter(&preview->state.flight, session);
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
     ++preview->picture_number;
 }

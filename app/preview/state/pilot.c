@@ -29,7 +29,7 @@ static bool should_orbit(const DipSession *session) {
     return session->options && session->options->model_count > 0 && !session->shows_gallery;
 }
 
-double dip_flying_speed(const DipSession *session) {
+static double speed_for(const DipSession *session) {
     if (!should_orbit(session) || !session->scene) {
         return courtyard_speed_m_per_s;
     }
@@ -62,6 +62,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
 
 void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
     flight->orbits = should_orbit(session);
+    flight->base_speed_m_per_s = speed_for(session);
     flight->speed_steps = 0;
     flight->knows_centre = false;
 }
@@ -231,7 +232,6 @@ static void keep_in_world(DipPose *pose) {
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose) {
     DipFlight *flight = &state->flight;
     bool moved = false;
-    flight->base_speed_m_per_s = turn->speed_m_per_s;
     if (state->manual && (flight->reset || !has_pose(pose))) {
         moved |= dip_camtrack_pose(state->track, state->play_ns, pose);
     }

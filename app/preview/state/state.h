@@ -82,7 +82,7 @@ typedef struct DipFlight {
                  // turns the camera on the spot, and the wheel changes its speed.
     bool reset;  // In the next turn, the camera gets its path's pose. The turn clears this.
     int speed_steps;           // Steps by which the user has changed the speed (pilot.h).
-    double base_speed_m_per_s; // Speed at 0 steps. Set by the loop in each turn.
+    double base_speed_m_per_s; // Speed at 0 steps; suits the scene (dip_pilot_enter).
     // What the mouse has done since the last turn of the loop. `drag_right` and `drag_up` are
     // fractions of a pane's height. `zoom_steps` counts the wheel's steps, positive away from the
     // user.

@@ -85,7 +85,6 @@ int dip_wall_set_up(void **unused) {
     const DipPreviewDef def = {.session = &wall.session,
                                .display = wall.display,
                                .reload = wall.reload,
-                               .flying_speed_m_per_s = 1.0,
                                .load_scene_def = dip_session_keep_model};
     wall.preview = dip_preview_create(&def, &err);
     assert_non_null(wall.preview);
