@@ -15,19 +15,11 @@ static void pause_or_play(const DipAct *act) {
     dip_preview_notice(state, act->now_ns, state->paused ? "Paused" : "Playing");
 }
 
-static void step_by(const DipAct *act, int64_t by_ns) {
+static void step(const DipAct *act) {
     DipPreviewState *state = act->state;
     state->paused = true;
-    dip_preview_seek(state, state->play_ns + by_ns);
+    dip_preview_seek(state, state->play_ns + act->argument * state->step_ns);
     dip_preview_notice(state, act->now_ns, "Paused");
-}
-
-static void step_on(const DipAct *act) {
-    step_by(act, act->state->step_ns);
-}
-
-static void step_back(const DipAct *act) {
-    step_by(act, -act->state->step_ns);
 }
 
 static void seek(const DipAct *act) {
@@ -184,8 +176,8 @@ static void next_comparison(const DipAct *act) {
 
 static void next_map(const DipAct *act) {
     DipToolState *tools = &act->state->tools;
-    dip_tool_state_choose_map(
-        tools, (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT));
+    dip_tool_state_choose_map(tools,
+                              (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT));
 }
 
 static void adjust(const DipAct *act) {
@@ -234,8 +226,7 @@ static const struct {
     [DIP_ACTION_NEXT_PANE] = {.carry_out = dip_state_choose_pane},
     [DIP_ACTION_APPLY] = {.carry_out = dip_state_apply},
     [DIP_ACTION_PAUSE] = {.carry_out = pause_or_play},
-    [DIP_ACTION_STEP] = {.carry_out = step_on},
-    [DIP_ACTION_STEP_BACK] = {.carry_out = step_back},
+    [DIP_ACTION_STEP] = {.carry_out = step},
     [DIP_ACTION_NEXT_PATH] = {.carry_out = next_path},
     [DIP_ACTION_PATH] = {.carry_out = choose_path},
     [DIP_ACTION_ANIMATION] = {.carry_out = choose_animation},

@@ -24,8 +24,7 @@ typedef enum DipAction {
     DIP_ACTION_NEXT_PANE,
     DIP_ACTION_APPLY,
     DIP_ACTION_PAUSE,
-    DIP_ACTION_STEP,
-    DIP_ACTION_STEP_BACK,
+    DIP_ACTION_STEP, // Pauses, and moves the time by `argument` steps.
     DIP_ACTION_NEXT_PATH,
     DIP_ACTION_PATH,
     DIP_ACTION_ANIMATION,
@@ -111,7 +110,7 @@ typedef struct DipPreviewState {
     DipCamTrack *track;                       // Borrowed.
     int64_t play_ns; // Time that the camera path and the scene follow, never below 0. A path begins
                      // at track->start_ns.
-    int64_t step_ns; // How far DIP_ACTION_STEP moves the time.
+    int64_t step_ns; // How far a step of DIP_ACTION_STEP moves the time.
     bool paused;
     bool stands;           // Neither the camera path nor the scene moves, so time does not run.
     bool scene_moves;      // Something in the scene moves. True for every scene of the gallery.
