@@ -52,12 +52,10 @@ typedef struct Context {
 // --- views -------------------------------------------------------------------------------------
 
 static View session_view(const DipSession *session) {
-    const DipCamTrack *track = &session->track;
-    const DipCamCategory *slot =
-        &track->categories[track->categories[track->active].path ? track->active : 0];
+    const DipCamCategory *slot = dip_camtrack_playing(&session->track);
     return (View){.scene = session->scene,
                   .path = slot->path,
-                  .end = track->end,
+                  .end = session->track.end,
                   .fov_y_deg = slot->fov_y_deg};
 }
 

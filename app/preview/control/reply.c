@@ -24,22 +24,16 @@ static void append(cJSON *array, cJSON *item) {
 // Returns the time on the camera path, from 0 to the path's duration. Without a path, returns the
 // time since track->start_ns, which may be longer.
 static double path_time_s(const DipPreviewState *state) {
-    const DipCamTrack *track = state->track;
-    const bool has_path = track->categories[track->active].path || track->categories[0].path;
-    const int64_t time_ns =
-        has_path ? dip_preview_path_ns(state) : dip_camtrack_time(track, state->play_ns);
+    const int64_t time_ns = dip_preview_playing_path(state)
+                                ? dip_preview_path_ns(state)
+                                : dip_camtrack_time(state->track, state->play_ns);
     return 1e-9 * (double)time_ns;
 }
 
 // Returns the name of the scene that the session shows. The request `scene` takes all these names
 // except "tour".
 static const char *scene_name(const DipSession *session) {
-    if (!session->shows_gallery) {
-        return "models";
-    }
-    return session->gallery_scene == DIP_GALLERY_TOUR
-               ? "tour"
-               : dip_gallery_info(session->gallery_scene)->name;
+    return session->shows_gallery ? dip_session_scene_file(session) : "models";
 }
 
 // Returns the name that the request `animation` has for the animation that plays, or "none".

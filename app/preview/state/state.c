@@ -65,12 +65,7 @@ void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns) {
 // --- camera paths --------------------------------------------------------------------------------
 
 const char *dip_preview_category_name(int category) {
-    static const char *const names[] = {
-#define PATH_NAME(NAME, fallback, text) #NAME,
-        DIP_CONFIG_LIST(DIP_CONFIG_NONE, PATH_NAME, DIP_CONFIG_NONE)
-#undef PATH_NAME
-    };
-    return category >= 0 && category < DIP_CATEGORY_COUNT ? names[category] : "?";
+    return category >= 0 && category < DIP_CATEGORY_COUNT ? dip_session_category(category) : "?";
 }
 
 const char *dip_preview_category_title(int category) {
@@ -97,8 +92,7 @@ const char *dip_preview_path_title(const DipPreviewState *state, int category) {
 }
 
 const DipCamPath *dip_preview_playing_path(const DipPreviewState *state) {
-    const DipCamPath *path = state->track->categories[state->track->active].path;
-    return path ? path : state->track->categories[0].path;
+    return dip_camtrack_playing(state->track)->path;
 }
 
 bool dip_preview_path_stands(const DipPreviewState *state) {

@@ -19,11 +19,9 @@ void dip_strip_want(DipStrip *strip, int width, int height) {
 }
 
 static DipStripSubject subject_of(const DipStrip *strip, const DipToolsInput *input) {
-    const DipCamTrack *track = &input->session->track;
-    const DipCamCategory *category = &track->categories[track->active];
+    const DipCamCategory *category = dip_camtrack_playing(&input->session->track);
     DipStripSubject subject;
     memset(&subject, 0, sizeof subject); // Clears the padding, which memcmp compares, too.
-    category = category->path ? category : &track->categories[0];
     subject.path = category->path;
     subject.fov_y_deg = category->fov_y_deg;
     subject.scene = input->session->scene;
