@@ -150,21 +150,29 @@ static void set_reflection(DipSession *session) {
     }
 }
 
+DipPainter *dip_session_make_painter(const DipSession *session, DipGallery *gallery,
+                                     const DipQuality *quality, int width, int height,
+                                     DipError *err) {
+    const DipRendererDef def = {
+        .pool = session->pool,
+        .isa = session->isa,
+        .width = width,
+        .height = height,
+        .quality = *quality,
+        .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
+    };
+    return dip_painter_create(&def, gallery, err);
+}
+
 bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
                                const DipQuality qualities[DIP_PANE_COUNT],
                                DipPainter *painters[DIP_PANE_COUNT], DipError *err) {
+    const DipConfigSize size = session->pane_size;
     bool made = true;
     for (int p = 0; made && p < DIP_PANE_COUNT; p++) {
-        const DipRendererDef def = {
-            .pool = session->pool,
-            .isa = session->isa,
-            .width = session->pane_size.width,
-            .height = session->pane_size.height,
-            .quality = qualities[p],
-            .reflection = session->reflection,
-            .force_all_effects = session->force_all_effects,
-        };
-        painters[p] = dip_painter_create(&def, gallery, err);
+        painters[p] =
+            dip_session_make_painter(session, gallery, &qualities[p], size.width, size.height, err);
         made = painters[p] != NULL;
     }
     return made;

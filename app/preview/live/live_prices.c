@@ -46,19 +46,10 @@ struct DipLivePrices {
 // --- painters ------------------------------------------------------------------------------------
 
 static DipPainter *painter_for(DipLivePrices *live, const DipQuality *quality, DipError *err) {
-    const DipSession *session = live->session;
     DipPainter **painter = &live->painters[quality->step[DIP_SETTING_GI] != 0];
     if (!*painter) {
-        const DipRendererDef def = {
-            .pool = session->pool,
-            .isa = session->isa,
-            .width = live->picture.width,
-            .height = live->picture.height,
-            .quality = *quality,
-            .reflection = session->reflection,
-            .force_all_effects = session->force_all_effects,
-        };
-        *painter = dip_painter_create(&def, session->gallery, err);
+        *painter = dip_session_make_painter(live->session, live->session->gallery, quality,
+                                            live->picture.width, live->picture.height, err);
     }
     return *painter;
 }

@@ -157,16 +157,8 @@ static bool prepare_painter(DipMaps *maps, const DipToolsInput *input, const Dip
         return dip_painter_set_quality(maps->painter, quality, &err) &&
                dip_painter_resize(maps->painter, input->width, input->height, &err);
     }
-    const DipRendererDef def = {
-        .pool = session->pool,
-        .isa = session->isa,
-        .width = input->width,
-        .height = input->height,
-        .quality = *quality,
-        .reflection = session->reflection,
-        .force_all_effects = session->force_all_effects,
-    };
-    maps->painter = dip_painter_create(&def, gallery, &err);
+    maps->painter =
+        dip_session_make_painter(session, gallery, quality, input->width, input->height, &err);
     return maps->painter && (gallery || dip_painter_record_tiles(maps->painter, true, &err));
 }
 

@@ -48,27 +48,19 @@ static int64_t time_of(const DipStrip *strip, int index) {
     return strip->duration_ns / DIP_STRIP_COUNT * index;
 }
 
-static bool make_painter(DipStrip *strip, const DipToolsInput *input) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = input->session->pool;
-    def.isa = input->session->isa;
-    def.width = strip->subject.width;
-    def.height = strip->subject.height;
-    def.quality = strip->subject.quality;
-    def.reflection = input->session->reflection;
-    strip->painter = strip->painter ? strip->painter : dip_painter_create(&def, NULL, NULL);
-    return strip->painter != NULL;
-}
-
 static bool draw_thumbnail(DipStrip *strip, const DipToolsInput *input) {
+    const DipStripSubject *subject = &strip->subject;
     const int index = strip->drawn;
     DipCanvas *canvas = &strip->pictures[index];
     const int64_t time_ns = time_of(strip, index);
-    DipPose pose = {.fov_y_deg = strip->subject.fov_y_deg};
+    DipPose pose = {.fov_y_deg = subject->fov_y_deg};
     DipFrame frame;
-    dip_campath_sample(strip->subject.path, time_ns, &pose);
-    if (!make_painter(strip, input) ||
-        !dip_canvas_resize(canvas, strip->subject.width, strip->subject.height, NULL) ||
+    dip_campath_sample(subject->path, time_ns, &pose);
+    if (!strip->painter) {
+        strip->painter = dip_session_make_painter(input->session, NULL, &subject->quality,
+                                                  subject->width, subject->height, NULL);
+    }
+    if (!strip->painter || !dip_canvas_resize(canvas, subject->width, subject->height, NULL) ||
         !dip_painter_draw(strip->painter, input->session->scene, &pose, time_ns, &frame, NULL)) {
         return false;
     }
