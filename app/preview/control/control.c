@@ -418,9 +418,7 @@ static void press(void *context, const DipPreviewMoment *moment, const DipEvent 
     DipWindow window = {
         .state = moment->state, .layout = &moment->layout, .now_ns = moment->now_ns};
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipFrame *frame = &moment->panes[p];
-        window.frames[p] =
-            (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+        window.frames[p] = dip_frame_pixels(&moment->panes[p]);
     }
     int pane, x, y;
     if (dip_compare_pixel_at(&window, event->x, event->y, &pane, &x, &y)) {

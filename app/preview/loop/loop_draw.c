@@ -206,7 +206,7 @@ static bool join_panes(const DipFrame panes[DIP_PANE_COUNT], DipCanvas *joined, 
     }
     dip_canvas_fill(joined, (DipRect){0, 0, width, current->height}, dip_style_background);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipPixels pane = dip_view_pixels(&panes[p]);
+        const DipPixels pane = dip_frame_pixels(&panes[p]);
         const int x = p == DIP_PANE_CURRENT ? 0 : right;
         dip_canvas_copy(joined, (DipRect){x, 0, pane.width, pane.height}, &pane);
     }

@@ -45,12 +45,8 @@ void dip_view_destroy(DipView **view_pointer) {
     free(view);
 }
 
-DipPixels dip_view_pixels(const DipFrame *frame) {
-    return (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
-}
-
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
-    view->frames[pane] = dip_view_pixels(frame);
+    view->frames[pane] = dip_frame_pixels(frame);
     view->versions[pane] = ++view->frame_count;
 }
 

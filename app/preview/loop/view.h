@@ -15,9 +15,6 @@ typedef struct DipView DipView;
 DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
 
-// Returns the pixels of a frame, which the frame still owns.
-DipPixels dip_view_pixels(const DipFrame *frame);
-
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
 

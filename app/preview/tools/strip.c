@@ -1,6 +1,7 @@
 // Draws the thumbnails of a path with a painter of the strip's own.
 #include "app/preview/tools/strip.h"
 
+#include "app/preview/tools/window.h"
 #include "campaths/campath.h"
 
 #include <string.h>
@@ -65,7 +66,7 @@ static bool draw_thumbnail(DipStrip *strip, const DipToolsInput *input) {
         return false;
     }
     const DipRect all = {0, 0, frame.width, frame.height};
-    const DipPixels pixels = {frame.rgba8, frame.stride_bytes, frame.width, frame.height};
+    const DipPixels pixels = dip_frame_pixels(&frame);
     dip_canvas_copy(canvas, all, &pixels);
     strip->versions[index] = ++strip->version;
     strip->drawn++;
@@ -99,8 +100,4 @@ DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index) {
         thumbnail.version = strip->versions[index];
     }
     return thumbnail;
-}
-
-int64_t dip_strip_duration_ns(const DipStrip *strip) {
-    return strip->duration_ns;
 }
