@@ -245,7 +245,7 @@ static bool press_key(DipTextView *view, DipPreviewState *state, const DipEvent 
                       int64_t now_ns) {
     const bool settings_show =
         !state->help && !dip_preview_shows_times(state) && !state->show_costs;
-    if (!settings_show || (event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT)) {
+    if (!settings_show || (event->modifiers & DIP_MODIFIER_COMMAND)) {
         return false;
     }
     switch (event->key) {
