@@ -16,7 +16,6 @@
 #include "renderer/post/post.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 // A view is a scene with the camera path through it.

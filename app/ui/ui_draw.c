@@ -6,7 +6,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { TIP_SIZE = 12, TIP_PAD = 8, TIP_WIDTH = 340, TIP_MAX_LINES = 10 };
 static const int64_t tip_delay_ns = 400000000;

@@ -2,7 +2,6 @@
 #include "app/preview/cells/text_view.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum {
     // If the settings, times or costs that the user has opened would leave the panes fewer rows

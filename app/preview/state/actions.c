@@ -3,8 +3,6 @@
 #include "app/preview/state/pilot.h"
 #include "app/preview/state/state_private.h"
 
-#include <stdio.h>
-
 static const int64_t ns_per_ms = 1000000;
 
 // --- time ----------------------------------------------------------------------------------------

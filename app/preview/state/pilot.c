@@ -4,7 +4,6 @@
 #include "app/preview/state/state_private.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
 

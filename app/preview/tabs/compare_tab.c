@@ -8,7 +8,6 @@
 #include "app/ui/style.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 // SMALL and TINY are letter sizes. All sizes and lengths are at scale 1.
 enum {

@@ -7,7 +7,6 @@
 #include "app/ui/style.h"
 
 #include <stdio.h>
-#include <string.h>
 
 // --- a pane's time -------------------------------------------------------------------------------
 
