@@ -58,10 +58,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->view = dip_view_create(def->display.set_text ? &preview->text : NULL, err);
     preview->prices = def->prices || !preview->view ? def->prices : dip_prices_create(err);
     preview->tools = preview->view && preview->prices ? dip_tools_create(err) : NULL;
-    preview->editor = preview->tools ? dip_path_editor_create(err) : NULL;
-    preview->state.editor = preview->editor;
+    preview->state.editor = preview->tools ? dip_path_editor_create(err) : NULL;
     preview->live_prices =
-        preview->editor ? dip_live_prices_create(def->session, preview->prices, err) : NULL;
+        preview->state.editor ? dip_live_prices_create(def->session, preview->prices, err) : NULL;
     if (!preview->live_prices) {
         dip_preview_destroy(&preview);
         return NULL;
@@ -85,7 +84,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     *preview_pointer = NULL;
     dip_error_thread_destroy(&preview->errors);
     dip_prefetch_end(&preview->prefetch);
-    dip_path_editor_destroy(&preview->editor);
+    dip_path_editor_destroy(&preview->state.editor);
     dip_tools_destroy(&preview->tools);
     dip_live_prices_destroy(&preview->live_prices);
     if (!preview->def.prices) {

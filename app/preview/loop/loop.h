@@ -42,14 +42,14 @@ typedef struct DipPreviewControl {
 } DipPreviewControl;
 
 typedef struct DipPreviewDef {
-    DipSession *session;         // Borrowed.
-    DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
-    DipCostReport *costs;        // Borrowed; NULL if there is no cost report.
-    struct DipReload *reload;    // Borrowed; with NULL, no files or animations can be opened.
-    DipPrices *prices;           // Borrowed; with NULL, the preview makes prices of its own.
-    bool measures_prices;        // Rough prices (live_prices.h) are measured while nothing moves.
-    const char *cache;           // Borrowed folder of cached truths (truth.h), or NULL.
-    DipPreviewControl control;   // control.context is borrowed.
+    DipSession *session;       // Borrowed.
+    DipDisplay display;        // Borrowed; the owner closes it after dip_preview_destroy.
+    DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
+    struct DipReload *reload;  // Borrowed; with NULL, no files or animations can be opened.
+    DipPrices *prices;         // Borrowed; with NULL, the preview makes prices of its own.
+    bool measures_prices;      // Rough prices (live_prices.h) are measured while nothing moves.
+    const char *cache;         // Borrowed folder of cached truths (truth.h), or NULL.
+    DipPreviewControl control; // control.context is borrowed.
     double ui_scale;    // Value of --ui-scale, which enlarges controls; 0 without the option.
     bool hides_panel;   // The window shows nothing but the panes at first.
     const char *notice; // Notice that shows at first; may be NULL. Copied.

@@ -51,11 +51,8 @@ static bool keep_size(DipPreview *preview, DipError *err) {
 // Gives the renderers the panes' size. A frame's size is limited to DIP_MAX_FRAME_SIZE; if a pane
 // is larger, the view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
-    const DipLayout layout = dip_preview_layout(preview);
-    int width, height;
-    dip_compare_frame_size(&layout, preview->state.tools.comparison, &width, &height);
-    width = width < DIP_MAX_FRAME_SIZE ? width : DIP_MAX_FRAME_SIZE;
-    height = height < DIP_MAX_FRAME_SIZE ? height : DIP_MAX_FRAME_SIZE;
+    const int width = dip_min(preview->pane_width, DIP_MAX_FRAME_SIZE);
+    const int height = dip_min(preview->pane_height, DIP_MAX_FRAME_SIZE);
     if (width == preview->tried_width && height == preview->tried_height) {
         return true;
     }
@@ -109,14 +106,11 @@ static bool take_back_settings(DipPreview *preview, DipError *err) {
     return draw_with_settings(preview, err);
 }
 
-static bool has_history(const DipPreview *preview) {
-    return preview->def.session->scene &&
-           (dip_quality_has_history(&preview->state.quality[DIP_PANE_CURRENT]) ||
-            dip_quality_has_history(&preview->state.quality[DIP_PANE_REQUESTED]));
-}
-
 bool dip_loop_settles(const DipPreview *preview) {
-    return has_history(preview) && preview->settling > 0;
+    const DipQuality *quality = preview->state.quality;
+    return preview->settling > 0 && preview->def.session->scene &&
+           (dip_quality_has_history(&quality[DIP_PANE_CURRENT]) ||
+            dip_quality_has_history(&quality[DIP_PANE_REQUESTED]));
 }
 
 // Lets the renderers' histories (taa=history) begin anew after a jump in time or to another path.
@@ -283,12 +277,9 @@ static bool draw_view(DipPreview *preview, DipError *err) {
 
 static bool present(DipPreview *preview, DipError *err) {
     const DipDisplay *display = &preview->def.display;
-    if (preview->exposed) {
-        dip_view_damage_all(preview->view);
-        preview->exposed = false;
-    }
     const DipPixels picture = dip_view_picture(preview->view);
-    const DipDamage damage = dip_view_take_damage(preview->view);
+    const DipDamage damage = dip_view_take_damage(preview->view, preview->exposed);
+    preview->exposed = false;
     if (display->set_text) {
         const DipTextScreen *screen = &preview->text.screen;
         display->set_text(display->context, screen->cells, screen->columns, screen->rows);

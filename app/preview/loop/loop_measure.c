@@ -10,11 +10,6 @@ static const double price_budget_ms = 8.0;
 // A truth (converged picture) with fewer samples per pixel is too noisy for prices.
 static const int least_truth_samples = 32;
 
-void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
-    dip_maps_set_errors(&preview->tools->maps, reading,
-                        preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
-}
-
 // Returns whether rough prices are measured: no report is used instead, the dock is open or another
 // program has subscribed to prices, and nothing moves.
 static bool wants_prices(const DipPreview *preview) {
@@ -130,7 +125,8 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
     }
     DipErrorReading reading;
     const bool news = dip_error_thread_read(preview->errors, &reading);
-    dip_loop_show_errors(preview, &reading);
+    dip_maps_set_errors(&preview->tools->maps, &reading,
+                        dip_error_thread_pictures(preview->errors));
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures.shown[p].errors = reading;
     }

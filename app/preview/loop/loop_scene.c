@@ -108,7 +108,7 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     preview->judged_path = NULL; // The new path may have the address of the old one.
     dip_error_thread_destroy(&preview->errors);
     preview->no_truth = false;
-    dip_loop_show_errors(preview, &nothing); // The thread owned the error pictures.
+    dip_maps_set_errors(&preview->tools->maps, &nothing, NULL); // The thread owned the pictures.
     dip_prefetch_end(&preview->prefetch);
     preview->prefetch = (DipPrefetch){.running = false};
     dip_live_prices_leave_scene(preview->live_prices);

@@ -154,12 +154,11 @@ DipPixels dip_view_picture(const DipView *view) {
     return dip_canvas_pixels(&view->canvas);
 }
 
-DipDamage dip_view_take_damage(DipView *view) {
+DipDamage dip_view_take_damage(DipView *view, bool all) {
+    if (all) {
+        dip_damage_add(&view->damage, (DipRect){0, 0, view->canvas.width, view->canvas.height});
+    }
     const DipDamage damage = view->damage;
     view->damage.count = 0;
     return damage;
-}
-
-void dip_view_damage_all(DipView *view) {
-    dip_damage_add(&view->damage, (DipRect){0, 0, view->canvas.width, view->canvas.height});
 }

@@ -52,10 +52,8 @@ DipUi *dip_view_ui(DipView *view);
 // Returns the picture, which is valid until the next dip_view_draw.
 DipPixels dip_view_picture(const DipView *view);
 
-// Returns the rectangles that have changed since the previous call, and forgets them.
-DipDamage dip_view_take_damage(DipView *view);
-
-// Marks the whole picture as changed.
-void dip_view_damage_all(DipView *view);
+// Returns the rectangles that have changed since the previous call, or with `all` one that covers
+// the whole picture, and forgets them.
+DipDamage dip_view_take_damage(DipView *view, bool all);
 
 #endif

@@ -30,10 +30,10 @@ double dip_flight_speed(const DipFlight *flight);
 // picture.
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
 
-// Gives the free camera a speed that suits the session's scene, and decides whether dragging orbits.
-// If the panes show models that the user gave, the camera crosses the diagonal of the scene's
-// bounding box in four seconds, whatever the models' unit of length is. Otherwise it flies 3 metres
-// per second. Call the function for a new session and for another scene.
+// Gives the free camera a speed that suits the session's scene, and decides whether dragging
+// orbits. If the panes show models that the user gave, the camera crosses the diagonal of the
+// scene's bounding box in four seconds, whatever the models' unit of length is. Otherwise it flies
+// 3 metres per second. Call the function for a new session and for another scene.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
 // What the loop gives to dip_pilot_turn.

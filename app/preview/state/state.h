@@ -115,7 +115,7 @@ typedef struct DipPreviewState {
     bool stands;           // Neither the camera path nor the scene moves, so time does not run.
     bool scene_moves;      // Something in the scene moves. True for every scene of the gallery.
     bool lacks_shadows;    // Nothing in the scene casts a shadow that `shadows` could draw.
-    DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
+    DipPathEditor *editor; // Owned by the loop; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the free camera.
 
     bool manual;        // The user flies the camera. Time then runs only if the scene moves.

@@ -111,7 +111,7 @@ static bool time_tab(int tab, const char *name, int width, int height) {
         if (i >= 0) {
             ms[i] = 1e-6 * (double)(dip_clock_ns() - begin_ns);
         }
-        dip_view_take_damage(bench.view);
+        dip_view_take_damage(bench.view, false);
     }
     const double p95 = dip_percentile(ms, FRAMES, 0.95);
     const double p50 = dip_percentile(ms, FRAMES, 0.50);
