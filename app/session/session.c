@@ -354,8 +354,7 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
     const DipQuality current = dip_painter_quality(session->renderers[DIP_PANE_CURRENT]);
     const DipQuality requested = dip_painter_quality(session->renderers[DIP_PANE_REQUESTED]);
-    frame->copied =
-        !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
+    frame->copied = !session->force_all_effects && dip_quality_equal(&current, &requested);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         dip_painter_set_frame_index(session->renderers[p], frame_index);
     }

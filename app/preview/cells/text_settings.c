@@ -2,7 +2,6 @@
 #include "app/preview/cells/text_view.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a block shows one setting.
@@ -204,7 +203,7 @@ static void draw_sum(DipTextView *view, DipTextArea body) {
     const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;
     const int end = body.column + body.columns;
-    const bool same = memcmp(&state->quality[0], &state->quality[1], sizeof(DipQuality)) == 0;
+    const bool same = dip_quality_equal(&state->quality[0], &state->quality[1]);
     for (int row = body.row; row < body.row + body.rows; ++row) {
         dip_text_put(&view->screen, row, column - 2, column - 1, dip_text_dim, "│");
     }

@@ -70,19 +70,14 @@ static void add_settings(cJSON *object, const DipPreviewMoment *moment) {
 // --- times and errors ----------------------------------------------------------------------------
 
 static void add_pane_times(cJSON *object, const char *name, const DipPaneFigures *figures) {
-    static const char *const stages[] = {
-#define STAGE_NAME(name, text) #name,
-        DIP_STAGE_LIST(STAGE_NAME)
-#undef STAGE_NAME
-    };
     cJSON *pane = cJSON_AddObjectToObject(object, name);
     add_time(pane, "ms", figures->ms);
     cJSON_AddNumberToObject(pane, "frames", figures->frames);
     cJSON_AddNumberToObject(pane, "fps", figures->fps);
     cJSON_AddBoolToObject(pane, "copied", figures->copied);
     cJSON *times = cJSON_AddObjectToObject(pane, "stages_ms");
-    for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
-        add_time(times, stages[s], figures->stage_ms[s]);
+    for (int s = 0; s < DIP_TIMED_PARTS; ++s) {
+        add_time(times, dip_bench_stage_names[s], figures->stage_ms[s]);
     }
 }
 

@@ -16,7 +16,7 @@
 static bool follow_settings(DipPreview *preview, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality *wanted = &preview->state.quality[p];
-        if (memcmp(wanted, &preview->drawn_quality[p], sizeof *wanted) == 0) {
+        if (dip_quality_equal(wanted, &preview->drawn_quality[p])) {
             continue;
         }
         if (!dip_painter_set_quality(preview->def.session->renderers[p], wanted, err)) {

@@ -50,7 +50,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
 static void follow_settings_of(const DipSession *session, DipPreviewState *state) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality begun = dip_painter_quality(session->renderers[p]);
-        if (memcmp(&begun, &state->begun_quality[p], sizeof begun) != 0) {
+        if (!dip_quality_equal(&begun, &state->begun_quality[p])) {
             state->quality[p] = begun;
         }
         state->begun_quality[p] = begun;

@@ -160,7 +160,7 @@ void dip_state_change_setting(const DipAct *act) {
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
                              int64_t now_ns) {
     char text[96];
-    if (memcmp(&state->quality[pane], quality, sizeof *quality) != 0) {
+    if (!dip_quality_equal(&state->quality[pane], quality)) {
         remember(state);
         state->quality[pane] = *quality;
         dip_preview_describe(quality, true, text, sizeof text);

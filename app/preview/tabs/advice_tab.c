@@ -136,8 +136,8 @@ static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advise
         }
         return;
     }
-    const bool same = advised && memcmp(&advised->quality, &state->quality[DIP_PANE_REQUESTED],
-                                        sizeof advised->quality) == 0;
+    const bool same =
+        advised && dip_quality_equal(&advised->quality, &state->quality[DIP_PANE_REQUESTED]);
     if (dip_ui_button(ui, id_of(ID_TRY), rect, "Try it right",
                       advised && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
                       same      ? "The right pane has these settings."
@@ -409,7 +409,7 @@ static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
     for (int i = 0; i < choice->candidates.count; ++i) {
         const DipCandidate *point = &choice->candidates.list[i];
         const int x = plot_x(plot, point->time.value), y = plot_y(plot, point->flip);
-        if (memcmp(&point->quality, current, sizeof point->quality) == 0) {
+        if (dip_quality_equal(&point->quality, current)) {
             draw_dot(ui, plot, point, 13, dip_style_white);
             draw_dot(ui, plot, point, 9, dip_style_well);
             draw_dot(ui, plot, point, 7, dip_style_gain);

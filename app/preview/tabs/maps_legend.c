@@ -135,11 +135,10 @@ static void brightness_buttons(const Tab *tab, DipRect rest) {
     for (int brightness = 1; brightness <= DIP_MAP_MAX_BRIGHTNESS; brightness *= 2) {
         char text[8];
         snprintf(text, sizeof text, "%dx", brightness);
-        if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, id++), dip_cut_left(&rest, px(tab, 30)),
-                          text,
-                          dip_max(1, tab->tools->brightness) == brightness ? DIP_UI_CHOSEN
-                                                                           : DIP_UI_PLAIN,
-                          "Ends the scale at this fraction of its full range.\nKeys: [ and ]")) {
+        if (dip_ui_button(
+                tab->ui, DIP_UI_ID(DIP_UI_MAPS, id++), dip_cut_left(&rest, px(tab, 30)), text,
+                dip_max(1, tab->tools->brightness) == brightness ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                "Ends the scale at this fraction of its full range.\nKeys: [ and ]")) {
             tab->tools->brightness = brightness;
         }
         dip_cut_left(&rest, px(tab, 4));
