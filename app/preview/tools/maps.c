@@ -2,6 +2,7 @@
 // errors from the error thread.
 #include "app/preview/tools/maps.h"
 
+#include "app/measure/stats/estimate.h"
 #include "app/preview/tools/compare.h"
 
 #include <stdlib.h>
@@ -68,18 +69,6 @@ static bool make_arrays(DipMapWork *work, const DipFrame *frame) {
     return true;
 }
 
-static int compare_numbers(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(const double *values, int count) {
-    double sorted[DIP_MAP_DRAWS];
-    memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_numbers);
-    return count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2.0;
-}
-
 // Adds a draw of a pane's frame. Keeps its times beside those of the earlier draws. Its counters
 // replace the earlier ones, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
@@ -95,10 +84,10 @@ static bool add_draw(DipMapWork *work, const DipFrame *frame) {
     work->geometry_ms = frame->stages.geometry_ms - frame->tiles.mirrored_times.geometry_ms;
     for (int t = 0; t < tiles; t++) {
         const DipTileRecord *record = &work->records[t];
-        double *draws_ms = work->draws_ms + (size_t)t * DIP_MAP_DRAWS;
+        double *draws_ms = work->draws_ms + (size_t)t * DIP_MAP_DRAWS, scratch[DIP_MAP_DRAWS];
         draws_ms[draw] =
             1e-6 * (double)(record->raster_ns + record->shading_ns + record->resolve_ns);
-        work->ms[t] = median(draws_ms, work->draws);
+        work->ms[t] = dip_percentile_of(draws_ms, work->draws, 0.5, scratch);
     }
     return true;
 }
