@@ -4,6 +4,7 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/log.h"
+#include "app/files/whole_file.h"
 #include "app/preview/loop/watch.h"
 #include "renderer/base/clock.h"
 
@@ -238,11 +239,6 @@ static void *open_session(void *context) {
     return NULL;
 }
 
-static const char *base_name(const char *file) {
-    const char *slash = strrchr(file, '/');
-    return slash ? slash + 1 : file;
-}
-
 static bool tell(DipReloadNews *news, DipReloadKind kind, const char *what, const char *name) {
     news->kind = kind;
     snprintf(news->notice, sizeof news->notice, "%s%.100s", what, name);
@@ -367,9 +363,9 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {
-        add(news, "; %.60s could not be opened", base_name(passed));
+        add(news, "; %.60s could not be opened", dip_base_name(passed));
     } else if (passed && (is_path(passed) || !is_path(reload->opening.file))) {
-        add(news, " in place of %.60s", base_name(passed));
+        add(news, " in place of %.60s", dip_base_name(passed));
     }
 }
 
@@ -432,7 +428,7 @@ static bool open_costs(DipReload *reload, DipPrices *prices, const char *file,
     }
     dip_costs_free(&reload->costs);
     news->costs = reload->costs = costs;
-    return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
+    return tell(news, DIP_RELOAD_COSTS, "Opened ", dip_base_name(file));
 }
 
 // --- turns ---------------------------------------------------------------------------------------
@@ -442,7 +438,7 @@ static bool open_next_drop(DipReload *reload, DipPrices *prices, DipReloadNews *
     --reload->drop_count;
     memmove(reload->drops, reload->drops + 1, (size_t)reload->drop_count * sizeof file);
     return ends_with(file, ".json") ? open_costs(reload, prices, file, news)
-                                    : begin(reload, file, base_name(file), news);
+                                    : begin(reload, file, dip_base_name(file), news);
 }
 
 bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news) {
