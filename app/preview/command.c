@@ -212,7 +212,7 @@ static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_M
 static bool run_loop(const DipPreviewDef *def, DipError *err) {
     DipPreview *preview = dip_preview_create(def, err);
     bool done = preview != NULL;
-    while (done && !dip_preview_has_quit(preview)) {
+    while (done && !dip_preview_state(preview)->quit) {
         done = dip_preview_turn(preview, err);
     }
     def->session->times.ended_ns = dip_clock_ns();

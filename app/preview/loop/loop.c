@@ -462,10 +462,6 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     return true;
 }
 
-bool dip_preview_has_quit(const DipPreview *preview) {
-    return preview->state.quit;
-}
-
 const DipPreviewState *dip_preview_state(const DipPreview *preview) {
     return &preview->state;
 }

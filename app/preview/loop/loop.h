@@ -1,7 +1,7 @@
 // Runs the preview on any display: handles events, lets time pass, draws and presents.
 //
-// The owner calls dip_preview_turn until dip_preview_has_quit returns true. A turn handles the
-// events that have arrived, and draws and presents at most one frame. If the turn presented a
+// The owner calls dip_preview_turn until dip_preview_state(preview)->quit is true. A turn handles
+// the events that have arrived, and draws and presents at most one frame. If the turn presented a
 // frame, it then waits for the display's next refresh. Otherwise it waits a short time for an
 // event, or not at all while there are prices to measure.
 #ifndef DIP_APP_PREVIEW_LOOP_LOOP_H
@@ -67,9 +67,6 @@ void dip_preview_destroy(DipPreview **preview);
 
 // Runs one turn. Fails if drawing or presenting fails.
 bool dip_preview_turn(DipPreview *preview, DipError *err);
-
-// Returns whether the user or another program has ended the preview.
-bool dip_preview_has_quit(const DipPreview *preview);
 
 const DipPreviewState *dip_preview_state(const DipPreview *preview);
 

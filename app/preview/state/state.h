@@ -149,7 +149,7 @@ typedef struct DipPreviewState {
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;
-    bool quit;
+    bool quit;        // The user or another program has ended the preview.
     bool in_terminal; // The preview shows characters, without the window's tools.
     bool full_screen;
     DipToolState tools;

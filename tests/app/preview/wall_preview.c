@@ -111,7 +111,7 @@ void dip_wall_turn(void) {
     if (!dip_preview_turn(wall.preview, &err)) {
         fail_msg("%s", err.message);
     }
-    assert_false(dip_preview_has_quit(wall.preview));
+    assert_false(dip_preview_state(wall.preview)->quit);
 }
 
 void dip_wall_wait_turn(void) {
