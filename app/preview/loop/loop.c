@@ -100,13 +100,13 @@ DipViewInput dip_loop_view_input(DipPreview *preview, int64_t now_ns) {
     const DipDisplay *display = &preview->def.display;
     DipViewInput input = {
         .scale = display->scale(display->context),
-        .now_ns = now_ns,
-        .state = &preview->state,
-        .figures = preview->figures.shown,
-        .prices = preview->prices,
-        .tools = preview->tools,
         .text = display->set_text ? &preview->text : NULL,
-        .still = dip_preview_rests(&preview->state, preview->flying),
+        .window = {.state = &preview->state,
+                   .still = dip_preview_rests(&preview->state, preview->flying),
+                   .now_ns = now_ns,
+                   .figures = preview->figures.shown,
+                   .prices = preview->prices,
+                   .tools = preview->tools},
     };
     display->size(display->context, &input.width, &input.height);
     return input;

@@ -25,20 +25,15 @@ uint64_t dip_view_version(const DipView *view, int pane);
 typedef struct DipViewInput {
     int width; // Size of the window in pixels.
     int height;
-    double scale; // The display's scale (display.h).
-    int64_t now_ns;
-    DipPreviewState *state;
-    const DipPaneFigures *figures; // Array with the figures of each pane.
-    const DipPrices *prices;
-    DipTools *tools;
+    double scale;      // The display's scale (display.h).
     DipTextView *text; // Draws the texts as character cells; NULL if the picture holds them.
-    bool still;        // Camera and scene stand still.
+    DipWindow window;  // Without layout, frames, versions and truth, which the view fills in.
 } DipViewInput;
 
 // Returns where the panes and the dock lie.
 DipLayout dip_view_layout(const DipViewInput *input);
 
-// Hands an event to the window's controls, which change input->state. Returns whether one of them
+// Hands an event to the window's controls, which change the state. Returns whether one of them
 // took the event.
 bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event);
 
