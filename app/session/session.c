@@ -4,6 +4,7 @@
 
 #include "app/cli/log.h"
 #include "app/cli/program_file.h"
+#include "app/files/put.h"
 #include "renderer/base/clock.h"
 
 #include <limits.h>
@@ -397,8 +398,7 @@ void dip_start_times_frame(DipStartTimes *times) {
 
 void dip_start_times_format(const DipStartTimes *times, char *text, size_t size_bytes) {
     snprintf(text, size_bytes, "start, ms:");
-#define ADD_PART(name, what)                                                                       \
-    snprintf(text + strlen(text), size_bytes - strlen(text), " %s %.1f", #name, times->name##_ms);
+#define ADD_PART(name, what) dip_put_append(text, size_bytes, " %s %.1f", #name, times->name##_ms);
     DIP_START_TIME_LIST(ADD_PART)
 #undef ADD_PART
 }

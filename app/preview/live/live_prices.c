@@ -3,6 +3,7 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/machine.h"
+#include "app/files/put.h"
 #include "app/measure/metrics/meter.h"
 #include "app/preview/live/processor_share.h"
 #include "renderer/base/clock.h"
@@ -363,8 +364,7 @@ static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
         snprintf(text, size_bytes, "errors: %d of %d", count - live->errors_left, count);
     }
     if (waits) {
-        const size_t length = strlen(text);
-        snprintf(text + length, size_bytes - length, ", waiting for a free processor");
+        dip_put_append(text, size_bytes, ", waiting for a free processor");
     }
 }
 

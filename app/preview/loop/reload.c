@@ -4,12 +4,12 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/log.h"
+#include "app/files/put.h"
 #include "app/files/whole_file.h"
 #include "app/preview/loop/watch.h"
 #include "renderer/base/clock.h"
 
 #include <pthread.h>
-#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -328,14 +328,6 @@ static bool lacks_changed_file(const Opening *opening) {
     return false;
 }
 
-static void add(DipReloadNews *news, const char *format, ...) {
-    const size_t length = strlen(news->notice);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(news->notice + length, sizeof news->notice - length, format, arguments);
-    va_end(arguments);
-}
-
 // Adds to the notice how many pictures are missing, and the first of the other warnings.
 static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     const DipError *first = NULL;
@@ -349,12 +341,14 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     const int others = (int)faults->count - pictures;
     news->warns = faults->count > 0;
     if (pictures > 0) {
-        add(news, ", %d picture%s missing", pictures, pictures > 1 ? "s" : "");
+        dip_put_append(news->notice, sizeof news->notice, ", %d picture%s missing", pictures,
+                       pictures > 1 ? "s" : "");
     }
     if (others > 1) {
-        add(news, ", with %d warnings: %s", others, first->message);
+        dip_put_append(news->notice, sizeof news->notice, ", with %d warnings: %s", others,
+                       first->message);
     } else if (others > 0) {
-        add(news, ", with a warning: %s", first->message);
+        dip_put_append(news->notice, sizeof news->notice, ", with a warning: %s", first->message);
     }
 }
 
@@ -363,9 +357,11 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {
-        add(news, "; %.60s could not be opened", dip_base_name(passed));
+        dip_put_append(news->notice, sizeof news->notice, "; %.60s could not be opened",
+                       dip_base_name(passed));
     } else if (passed && (is_path(passed) || !is_path(reload->opening.file))) {
-        add(news, " in place of %.60s", dip_base_name(passed));
+        dip_put_append(news->notice, sizeof news->notice, " in place of %.60s",
+                       dip_base_name(passed));
     }
 }
 

@@ -2,6 +2,7 @@
 // and a plot of all settings that can be chosen. With live prices, a text about cost reports takes
 // the place of the next better settings and of the plot. Everything else comes from the preview's
 // choice (prices/choice.h), which is computed from a cost report or from live prices (prices.h).
+#include "app/files/put.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -173,14 +174,12 @@ static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
 
 // Writes what changes from one combination of settings to another: "asd 1 → 2".
 static void format_change(const DipQuality *from, const DipQuality *to, char text[160]) {
-    size_t length = 0;
     text[0] = '\0';
-    for (int s = 0; s < DIP_SETTING_COUNT && length < 140; ++s) {
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         if (from->step[s] != to->step[s]) {
             const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-            length += (size_t)snprintf(text + length, 160 - length, "%s%s %s \u2192 %s",
-                                       length ? ", " : "", info->key, info->steps[from->step[s]],
-                                       info->steps[to->step[s]]);
+            dip_put_append(text, 160, "%s%s %s \u2192 %s", text[0] ? ", " : "", info->key,
+                           info->steps[from->step[s]], info->steps[to->step[s]]);
         }
     }
 }

@@ -1,4 +1,5 @@
 // Declares the loupe's tab: an enlarged crop of each pane, and figures of the pixel in its middle.
+#include "app/files/put.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/loupe.h"
 #include "app/ui/layout.h"
@@ -46,12 +47,11 @@ static DipColour pixel_of(const DipPixels *picture, int x, int y) {
 // Writes the pixel's linear light, from 0 to 1: ".761 .102 .000".
 static void format_linear(const Part *part, char text[32]) {
     const uint8_t codes[3] = {part->pixel.red, part->pixel.green, part->pixel.blue};
-    size_t length = 0;
+    text[0] = '\0';
     for (int c = 0; c < 3; ++c) {
         char number[16];
         snprintf(number, sizeof number, "%.3f", dip_loupe_linear(part->loupe, codes[c]));
-        length += (size_t)snprintf(text + length, 32 - length, "%s%s", c ? " " : "",
-                                   number + (number[0] == '0'));
+        dip_put_append(text, 32, "%s%s", c ? " " : "", number + (number[0] == '0'));
     }
 }
 
