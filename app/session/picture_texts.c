@@ -48,12 +48,9 @@ static const char *path_name(const DipSession *session, bool free_camera) {
     if (options && options->path) {
         return options->path;
     }
-    // A category without a path of its own plays the path of category 0.
     const DipCamTrack *track = &session->track;
-    return session->orbiting
-               ? "orbit"
-               : dip_session_path_name(session,
-                                       track->categories[track->active].path ? track->active : 0);
+    const int category = (int)(dip_camtrack_playing(track) - track->categories);
+    return session->orbiting ? "orbit" : dip_session_path_name(track, category);
 }
 
 void dip_picture_texts_make(DipPictureTexts *texts, const DipSession *session, const DipPose *pose,

@@ -185,12 +185,13 @@ const char *dip_session_scene_look(const DipSession *session, int look, int64_t 
 // Returns the field of view of --fov, or fov_y_deg if the option is not given.
 double dip_session_fov(const DipSession *session, double fov_y_deg);
 
-// Returns the name of a camera path of the track: the name of a category ("DEFAULT", "AA", ...) or
-// of a camera of the models.
-const char *dip_session_path_name(const DipSession *session, int category);
-
-// Returns the name of a category of the ini's camera paths: "DEFAULT", "AA", ...
+// Returns the name of a category of the ini's camera paths ("DEFAULT", "AA", ...), or "?" for
+// another number.
 const char *dip_session_category(int category);
+
+// Returns the name of a camera path of a track: the name of a category or of a camera of the
+// models.
+const char *dip_session_path_name(const DipCamTrack *track, int category);
 
 // One frame of both panes.
 typedef struct DipSessionFrame {

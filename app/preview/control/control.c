@@ -65,12 +65,13 @@ static bool choose_path(const DipPreviewMoment *moment, const char *name, DipErr
         if (!state->track->categories[c].path) {
             continue;
         }
-        if (strcmp(name, dip_preview_path_name(state, c)) == 0) {
+        if (strcmp(name, dip_session_path_name(state->track, c)) == 0) {
             dip_preview_act(state, DIP_ACTION_PATH, c, false, moment->now_ns);
             return true;
         }
         strncat(accepted, " ", sizeof accepted - strlen(accepted) - 1);
-        strncat(accepted, dip_preview_path_name(state, c), sizeof accepted - strlen(accepted) - 1);
+        strncat(accepted, dip_session_path_name(state->track, c),
+                sizeof accepted - strlen(accepted) - 1);
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "category",
                          "'%s' is no category with a camera path, accepted%s", name,

@@ -52,7 +52,8 @@ static void add_state(cJSON *object, const DipPreviewMoment *moment) {
     const DipPreviewState *state = moment->state;
     cJSON_AddBoolToObject(object, "paused", state->paused);
     add_time(object, "time_s", path_time_s(state));
-    cJSON_AddStringToObject(object, "category", dip_preview_path_name(state, state->track->active));
+    cJSON_AddStringToObject(object, "category",
+                            dip_session_path_name(state->track, state->track->active));
     cJSON_AddBoolToObject(object, "free_camera", state->manual);
     cJSON_AddStringToObject(object, "scene", scene_name(moment->session));
     cJSON_AddStringToObject(object, "animation", animation_name(moment->session));
@@ -127,7 +128,7 @@ static void add_paths(cJSON *object, const DipPreviewMoment *moment) {
             break; // No further camera of the models has a path.
         }
         cJSON *path = cJSON_CreateObject();
-        cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));
+        cJSON_AddStringToObject(path, "category", dip_session_path_name(state->track, c));
         cJSON_AddStringToObject(path, "title", dip_preview_path_title(state, c));
         cJSON_AddBoolToObject(path, "available", state->track->categories[c].path != NULL);
         append(paths, path);
@@ -169,7 +170,7 @@ static cJSON *describe_setting(DipSetting setting) {
     }
     cJSON_AddStringToObject(object, "default", info->steps[info->default_step]);
     if (category >= 0) {
-        cJSON_AddStringToObject(object, "category", dip_preview_category_name(category));
+        cJSON_AddStringToObject(object, "category", dip_session_category(category));
     }
     return object;
 }

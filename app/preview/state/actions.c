@@ -35,8 +35,7 @@ static bool has_path(const DipPreviewState *state, int category) {
 static void play_path(DipPreviewState *state, int category, int64_t now_ns) {
     if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
         dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
-                           dip_preview_category_title(category),
-                           dip_preview_category_name(category));
+                           dip_preview_category_title(category), dip_session_category(category));
         return;
     }
     dip_camtrack_switch(state->track, category, state->play_ns);

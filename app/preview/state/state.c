@@ -64,10 +64,6 @@ void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns) {
 
 // --- camera paths --------------------------------------------------------------------------------
 
-const char *dip_preview_category_name(int category) {
-    return category >= 0 && category < DIP_CATEGORY_COUNT ? dip_session_category(category) : "?";
-}
-
 const char *dip_preview_category_title(int category) {
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         if (category == dip_preview_category_of((DipSetting)s)) {
@@ -76,13 +72,7 @@ const char *dip_preview_category_title(int category) {
     }
     return category == DIP_CATEGORY_DEFAULT ? "Default"
            : category == DIP_CATEGORY_WATER ? "Water"
-                                            : dip_preview_category_name(category);
-}
-
-const char *dip_preview_path_name(const DipPreviewState *state, int category) {
-    const bool is_camera = category >= DIP_CATEGORY_COUNT && category < DIP_CAMTRACK_CATEGORIES;
-    const char *name = is_camera ? state->track->categories[category].name : NULL;
-    return name ? name : dip_preview_category_name(category);
+                                            : dip_session_category(category);
 }
 
 const char *dip_preview_path_title(const DipPreviewState *state, int category) {

@@ -283,15 +283,9 @@ void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]);
 // warnings, which take longer to read than other notices.
 void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns);
 
-// Returns the name that the ini gives to a category of paths ("DEFAULT", "AA", ...), or "?" for
-// another number.
-const char *dip_preview_category_name(int category);
-
-// These functions return the name and the title of a path of the state's track. A path of a
-// category has the category's name and title; if this path is the motion of a camera of the models,
-// its title is the camera's name. The paths past the last category are motions of such cameras, and
-// both functions return the camera's name.
-const char *dip_preview_path_name(const DipPreviewState *state, int category);
+// Returns the title of a path of the state's track. A path of a category has the category's title;
+// if this path is the motion of a camera of the models, its title is the camera's name. The paths
+// past the last category are motions of such cameras, too.
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 
 // Returns the name of a category of paths for display: "Default", "Water", or the title of the

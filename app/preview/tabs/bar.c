@@ -97,8 +97,8 @@ static void format_place(const DipPreviewState *state, int category, bool brief,
         snprintf(text, size_bytes, "%s%s%s  %.1f s", state->scene_title, brief ? "" : ": ",
                  brief ? "" : state->scene_look, 1e-9 * (double)state->play_ns);
     } else if (brief) {
-        snprintf(text, size_bytes, "%s %.*f s", dip_preview_path_name(state, category), decimals,
-                 seconds);
+        snprintf(text, size_bytes, "%s %.*f s", dip_session_path_name(state->track, category),
+                 decimals, seconds);
     } else {
         snprintf(text, size_bytes, "%s  %.*f of %.0f s", dip_preview_path_title(state, category),
                  decimals, seconds, length);

@@ -141,7 +141,7 @@ static void declare_paths(DipFlow *flow) {
     }
     for (int i = 0; i < choices.count; ++i) {
         texts[i] = dip_preview_path_title(state, paths[i]);
-        names[i] = dip_preview_path_name(state, paths[i]);
+        names[i] = dip_session_path_name(state->track, paths[i]);
         choices.playing = paths[i] == state->track->active ? i : choices.playing;
     }
     const int pressed = declare_choices(flow, &choices);
