@@ -38,7 +38,6 @@ typedef enum DipUiGroup {
     DIP_UI_COMPARE,
     DIP_UI_MAPS,
     DIP_UI_ADVICE,
-    DIP_UI_TIMES,
     DIP_UI_HELP,
     DIP_UI_PATH
 } DipUiGroup;

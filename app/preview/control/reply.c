@@ -277,9 +277,9 @@ static void add_step(cJSON *steps, const char *name, const DipPrice *price) {
 }
 
 static const char *source_name(const DipPrices *prices, const DipPriceSum *requested) {
-    return dip_prices_has_report(prices) && !dip_prices_are_rough(prices) ? "report"
-           : requested->state == DIP_PRICE_UNKNOWN                        ? "none"
-                                                                          : "rough";
+    return !dip_prices_are_rough(prices)           ? "report"
+           : requested->state == DIP_PRICE_UNKNOWN ? "none"
+                                                   : "rough";
 }
 
 static void add_prices(cJSON *object, const DipPreviewMoment *moment) {

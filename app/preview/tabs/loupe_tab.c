@@ -18,7 +18,6 @@ enum {
     DETAILS_WIDTH = 264, // Width of a pixel's box and figures beside a crop.
     FIGURES_WIDTH = 128, // Width of the figures without the box.
     LEAST_CROP = 64,     // Least width of a crop that has text beside it.
-    SAMPLES_ZOOM = 16,   // Least zoom at which the crop marks samples.
 };
 
 enum { ID_ZOOM, ID_PIN = 8, ID_CROP };
@@ -284,7 +283,7 @@ static void want_samples(const Part *part, const DipLoupeCrop *crop) {
     const DipToolState *tools = &part->window->state->tools;
     const DipRect *source = &crop->source;
     DipTargetRegion region = {tools->x, tools->y, tools->x + 1, tools->y + 1};
-    if (crop->zoom >= SAMPLES_ZOOM && !dip_rect_is_empty(*source)) {
+    if (crop->zoom >= DIP_LOUPE_MARKS_ZOOM && !dip_rect_is_empty(*source)) {
         region = (DipTargetRegion){source->x, source->y, dip_rect_right(*source),
                                    dip_rect_bottom(*source)};
     }
