@@ -220,14 +220,13 @@ static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
             dip_preview_act(window->state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
             chosen = true;
         }
+        DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
         if (chosen) {
-            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
             dip_ui_fill(ui, rect, dip_style_dock);
-            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_white);
         }
-        if (tool_shows && !chosen) {
-            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
-            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_accent);
+        if (chosen || tool_shows) {
+            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)),
+                        chosen ? dip_style_white : dip_style_accent);
         }
         if (bar->words) {
             dip_ui_label(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE, rect,

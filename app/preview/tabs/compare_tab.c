@@ -243,7 +243,7 @@ void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body) {
         [DIP_COMPARE_TRUTH] = {"Truth",
                                "Shows the converged picture in place of the current pane."},
     };
-    DipFlow flow = dip_flow_make(ui, window, DIP_UI_COMPARE, body, SMALL);
+    DipFlow flow = dip_flow_make(ui, window, DIP_UI_COMPARE, body, SMALL, false);
     for (int c = 0; c < DIP_COMPARISON_COUNT; ++c) {
         if (dip_flow_choice(&flow, ID_COMPARISON + (unsigned)c, names[c][0],
                             window->state->tools.comparison == (DipComparison)c, names[c][1])) {

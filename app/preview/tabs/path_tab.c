@@ -342,10 +342,8 @@ static void declare_steps(DipFlow *flow) {
 }
 
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
-    DipFlow flow = dip_flow_make(ui, window, DIP_UI_PATH, body, 12);
-    if (body.width < dip_ui_px(ui, NARROW)) {
-        dip_flow_make_narrow(&flow);
-    }
+    DipFlow flow =
+        dip_flow_make(ui, window, DIP_UI_PATH, body, 12, body.width < dip_ui_px(ui, NARROW));
     declare_paths(&flow);
     dip_flow_next_row(&flow);
     if (window->state->editor) {

@@ -20,7 +20,7 @@ static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect mark = dip_loupe_mark(shown, frame->width, frame->height, crop.source);
     const DipRect inside = dip_rect_intersect(mark, dip_compare_visible(window, pane));
     if (!dip_rect_is_empty(inside)) {
-        dip_ui_mark(ui, inside, pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white);
+        dip_ui_mark(ui, inside, dip_style_of_pane(pane));
     }
 }
 
