@@ -176,23 +176,17 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
     const DipDisplay *display = moment->display;
     const DipToolState *tools = &moment->state->tools;
     const double display_scale = display->scale(display->context);
-    int width, height = request->height;
+    int width, height;
     if (!display->set_size) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    // Iterates, because the scale depends on the height, and the height on the scale.
-    for (int i = 0; i < 4; ++i) {
-        const double scale = dip_layout_scale(display_scale, tools, height);
-        dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare,
-                               &width, &height);
-    }
+    dip_layout_window_size(request->width, request->height, display_scale, tools, &width, &height);
     display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
     // The next turn lays the window out anew, so moment->layout has the old size.
-    const double scale = dip_layout_scale(display_scale, tools, height);
     const DipRect pane =
-        dip_layout_make(width, height, scale, tools->open, tools->bare).panes[DIP_PANE_CURRENT];
+        dip_layout_make(width, height, display_scale, tools).panes[DIP_PANE_CURRENT];
     cJSON_AddNumberToObject(reply, "width", pane.width);
     cJSON_AddNumberToObject(reply, "height", pane.height);
     return true;

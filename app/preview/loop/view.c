@@ -56,7 +56,6 @@ uint64_t dip_view_version(const DipView *view, int pane) {
 }
 
 DipLayout dip_view_layout(const DipViewInput *input) {
-    const DipToolState *tools = &input->window.state->tools;
     if (input->text) { // The dock is drawn as characters, so only the panes have rectangles.
         DipLayout layout = {
             .width = input->width, .height = input->height, .scale = 1.0, .side = DIP_DOCK_DRAWER};
@@ -64,9 +63,7 @@ DipLayout dip_view_layout(const DipViewInput *input) {
                             layout.panes);
         return layout;
     }
-    return dip_layout_make(input->width, input->height,
-                           dip_layout_scale(input->scale, tools, input->height), tools->open,
-                           tools->bare);
+    return dip_layout_make(input->width, input->height, input->scale, &input->window.state->tools);
 }
 
 // Runs one pass (ui.h) over all controls: draws them into `list`, hands them `event`, or only lays
