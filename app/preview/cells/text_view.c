@@ -17,10 +17,6 @@ static const DipTextColours bar = {{196, 202, 210, 255}, {32, 36, 43, 255}};
 static const DipTextColours bar_title = {{255, 255, 255, 255}, {32, 36, 43, 255}};
 static const DipTextColours bar_accent = {{255, 190, 92, 255}, {32, 36, 43, 255}};
 
-void dip_text_view_free(DipTextView *view) {
-    dip_text_screen_free(&view->screen);
-}
-
 // --- layout ------------------------------------------------------------------------------------
 
 // Returns the number of rows for settings, times or costs on a screen whose panes would otherwise

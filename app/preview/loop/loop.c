@@ -92,7 +92,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     }
     dip_preview_choice_free(&preview->choice);
     dip_view_destroy(&preview->view);
-    dip_text_view_free(&preview->text);
+    dip_text_screen_free(&preview->text.screen);
     free(preview);
 }
 

@@ -54,12 +54,11 @@ static void format_linear(const Part *part, char text[32]) {
     }
 }
 
-static void say_pixel(Part *part) {
+// Writes the pixel's colour in sRGB codes and in linear light.
+static void say_levels(Part *part) {
     const DipColour *c = &part->pixel;
     char linear[32];
     format_linear(part, linear);
-    dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "#%02X%02X%02X", c->red, c->green,
-                c->blue);
     dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "%d %d %d", c->red, c->green,
                 c->blue);
     dip_ui_line(part->ui, TINY, dip_style_dim, &part->rest, "linear");
@@ -193,12 +192,13 @@ static void show_details(Part *part, DipRect rect) {
         draw_box(part, (DipRect){left.x, left.y, side, side});
         dip_cut_left(&part->rest, gap);
     }
-    if (4 * small <= rect.height) {
-        say_pixel(part);
-        say_samples(part);
-    } else if (small <= rect.height) {
+    if (small <= rect.height) {
         dip_ui_line(ui, SMALL, dip_style_white, &part->rest, "#%02X%02X%02X", c->red, c->green,
                     c->blue);
+    }
+    if (4 * small <= rect.height) {
+        say_levels(part);
+        say_samples(part);
     }
     if (box) {
         part->rest = rect;
