@@ -26,6 +26,7 @@ static void follow_refresh(DipPreview *preview) {
 }
 
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
+    DipQuality quality[DIP_PANE_COUNT];
     DipPreview *preview = calloc(1, sizeof *preview);
     if (!preview) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
@@ -33,9 +34,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     }
     preview->def = *def;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        preview->drawn_quality[p] = dip_painter_quality(def->session->renderers[p]);
+        quality[p] = dip_painter_quality(def->session->renderers[p]);
     }
-    preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
+    preview->state = dip_preview_state_make(quality, &def->session->track);
     preview->state.costs = def->costs;
     preview->state.choice = &preview->choice;
     preview->state.in_terminal = def->display.set_text != NULL;
@@ -43,7 +44,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->state.shows_gallery = def->session->shows_gallery;
     dip_pilot_enter(&preview->state.flight, def->session);
     if (def->session->shows_gallery) {
-        preview->state.look = preview->drawn_look = def->session->options->look;
+        preview->state.look = def->session->options->look;
     }
     preview->resized = true;
     preview->figures.outdated = true;

@@ -15,14 +15,15 @@
 // times.
 static bool follow_settings(DipPreview *preview, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        DipPainter *painter = preview->def.session->renderers[p];
+        const DipQuality before = dip_painter_quality(painter);
         const DipQuality *wanted = &preview->state.quality[p];
-        if (dip_quality_equal(wanted, &preview->drawn_quality[p])) {
+        if (dip_quality_equal(wanted, &before)) {
             continue;
         }
-        if (!dip_painter_set_quality(preview->def.session->renderers[p], wanted, err)) {
+        if (!dip_painter_set_quality(painter, wanted, err)) {
             return false;
         }
-        preview->drawn_quality[p] = *wanted;
         dip_figures_forget(&preview->figures, p);
     }
     return true;
@@ -71,9 +72,11 @@ static void number_picture(DipPreview *preview) {
     drawn.play_ns = preview->state.play_ns;
     drawn.width = preview->frame.panes[0].width;
     drawn.height = preview->frame.panes[0].height;
-    drawn.look = preview->drawn_look;
+    drawn.look = preview->state.look;
     drawn.gallery = preview->def.session->gallery;
-    memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        drawn.quality[p] = dip_painter_quality(preview->def.session->renderers[p]);
+    }
     if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
         preview->drawn = drawn;
         ++preview->picture_number;
@@ -146,8 +149,7 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
     const bool changed = preview->state.scene_changes != preview->drawn_changes || preview->resized;
     preview->settling = changed ? DIP_FRAMES_BEFORE : preview->settling - (preview->settling > 0);
     number_picture(preview);
-    dip_scene_words(session->options, session->shows_gallery ? preview->state.look : 0,
-                    preview->state.scene_words);
+    dip_scene_words(session->options, preview->state.look, preview->state.scene_words);
     preview->state.pane_width = preview->frame.panes[0].width;
     preview->state.pane_height = preview->frame.panes[0].height;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -230,7 +232,7 @@ static bool save_screenshot(DipPreview *preview, char *file, size_t size_bytes, 
     dip_picture_texts_make(&texts, preview->def.session, &preview->drawn.pose,
                            preview->drawn.play_ns, preview->state.manual);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_picture_texts_add_pane(&texts, p, &preview->drawn_quality[p], &preview->frame.panes[p]);
+        dip_picture_texts_add_pane(&texts, p, &preview->drawn.quality[p], &preview->frame.panes[p]);
     }
     const bool written = dip_png_write_with_texts(file, &picture, texts.items, texts.count, err);
     dip_canvas_free(&joined);

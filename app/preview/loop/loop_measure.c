@@ -172,6 +172,6 @@ bool dip_loop_measure_prices(DipPreview *preview) {
         .pixels_per_degree = dip_prices_viewing(preview->prices),
     };
     const DipLiveTruth truth = truth_for_prices(preview);
-    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality, &truth,
+    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn.quality, &truth,
                                 price_budget_ms);
 }

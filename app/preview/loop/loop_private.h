@@ -76,9 +76,7 @@ struct DipPreview {
     DipPose pose;             // Pose of the next frame.
     DipSessionFrame frame;    // The frame that was drawn last.
     uint64_t frame_index;
-    unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
-    DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
-    int drawn_look;
+    unsigned drawn_changes;       // Value of state.scene_changes at the last frame.
     const DipCamPath *drawn_path; // The path that played in the last frame.
     int settling;                 // Frames to draw at rest until the panes' histories are complete.
     Drawn drawn;

@@ -20,11 +20,10 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     const int step = state->scene_step;
     DipError failure;
     state->scene_step = 0;
+    if (session->gallery) {
+        dip_gallery_set_look(session->gallery, state->look);
+    }
     if (step == 0) {
-        if (session->gallery && state->look != preview->drawn_look) {
-            dip_gallery_set_look(session->gallery, state->look);
-            preview->drawn_look = state->look;
-        }
         return;
     }
     dip_live_prices_leave_scene(preview->live_prices);
@@ -36,7 +35,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     state->shows_gallery = session->shows_gallery;
     preview->judged_path = NULL;
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
-    state->look = preview->drawn_look = 0;
+    state->look = 0;
     state->play_ns = 0;
     state->manual = false;
     dip_pilot_enter(&state->flight, session);
@@ -114,11 +113,9 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     dip_live_prices_leave_scene(preview->live_prices);
     hand_over(preview, dropped);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        preview->drawn_quality[p] = dip_painter_quality(session->renderers[p]);
         dip_figures_forget(&preview->figures, p);
     }
     dip_loop_enter_scene(preview);
-    preview->drawn_look = preview->state.look;
     dip_pilot_enter(&preview->state.flight, session);
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
     ++preview->picture_number;
