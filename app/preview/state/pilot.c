@@ -4,6 +4,7 @@
 #include "app/preview/state/state_private.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { STEPS_TO_DOUBLE = 4, MOST_STEPS = 40 };
 
@@ -51,9 +52,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
         }
     }
     if (should_orbit(session)) {
-        for (int i = 0; i < 3; ++i) {
-            centre_world[i] = middle[i];
-        }
+        memcpy(centre_world, middle, sizeof middle);
     } else {
         dip_camera_point_ahead(pose, middle, least_distance_m, centre_world);
     }

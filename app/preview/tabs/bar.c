@@ -272,9 +272,7 @@ static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
     if (input.began || (input.held && input.moved)) {
         seek(state, &input, rect);
     } else if (input.steps) {
-        dip_preview_act(state, DIP_ACTION_SEEK,
-                        1000 * (input.steps < 0 ? -input.steps : input.steps), input.steps < 0,
-                        dip_ui_now_ns(ui));
+        dip_preview_act(state, DIP_ACTION_SEEK, 1000 * input.steps, false, dip_ui_now_ns(ui));
     } else if (input.to_first || input.to_last) {
         dip_preview_seek_path(state, input.to_first ? 0 : length_ns - state->step_ns);
     }
