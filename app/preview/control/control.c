@@ -4,6 +4,7 @@
 
 #include "app/control/control.h"
 #include "app/files/pictures.h"
+#include "app/files/put.h"
 #include "app/preview/control/reply_private.h"
 #include "app/preview/tools/compare.h"
 #include "renderer/base/hash.h"
@@ -69,9 +70,7 @@ static bool choose_path(const DipPreviewMoment *moment, const char *name, DipErr
             dip_preview_act(state, DIP_ACTION_PATH, c, false, moment->now_ns);
             return true;
         }
-        strncat(accepted, " ", sizeof accepted - strlen(accepted) - 1);
-        strncat(accepted, dip_session_path_name(state->track, c),
-                sizeof accepted - strlen(accepted) - 1);
+        dip_put_append(accepted, sizeof accepted, " %s", dip_session_path_name(state->track, c));
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "category",
                          "'%s' is no category with a camera path, accepted%s", name,

@@ -380,18 +380,16 @@ static bool finish(DipReload *reload, DipReloadNews *news) {
                                : "Reloaded ",
              opening->name[0] ? opening->name : "the scene");
         tell_passed(reload, news);
-    }
-    if (good && !opening->animated) {
-        tell_warnings(news, &opening->faults);
+        if (!opening->animated) {
+            tell_warnings(news, &opening->faults);
+        }
+    } else {
+        tell_fault(news, &opening->faults);
+        watch_session(reload, &opening->faults);
+        drop_opening(opening);
     }
     reload->passed = opening->file && reload->drop_count > 0 ? opening->file : NULL;
     reload->passed_failed = !good;
-    if (good) {
-        return true;
-    }
-    tell_fault(news, &opening->faults);
-    watch_session(reload, &opening->faults);
-    drop_opening(opening);
     return true;
 }
 
