@@ -217,14 +217,10 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
 // Gives the focused setting its next step (`by` is 1) or the step before (-1), in the order of
 // dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
-    const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[dip_preview_edited_pane(state)].step[view->focus];
-    for (int i = 0; i < count; ++i) {
-        if (dip_setting_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
-            dip_preview_set_step(state, view->focus, dip_setting_step_at(view->focus, i + by),
-                                 now_ns);
-            return;
-        }
+    const int at = dip_setting_step_at(view->focus, now) + by;
+    if (at >= 0 && at < dip_setting_info(view->focus)->step_count) {
+        dip_preview_set_step(state, view->focus, dip_setting_step_at(view->focus, at), now_ns);
     }
 }
 
