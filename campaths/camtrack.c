@@ -23,16 +23,15 @@ void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end) {
     track->end = end;
 }
 
-// Returns the category whose path plays while `category` is active.
-static const DipCamCategory *playing(const DipCamTrack *track, int category) {
-    return &track->categories[track->categories[category].path ? category : 0];
+const DipCamCategory *dip_camtrack_playing(const DipCamTrack *track) {
+    return &track->categories[track->categories[track->active].path ? track->active : 0];
 }
 
 void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns) {
     DIP_ASSERT(category >= 0 && category < DIP_CAMTRACK_CATEGORIES);
-    const DipCamPath *before = playing(track, track->active)->path;
+    const DipCamPath *before = dip_camtrack_playing(track)->path;
     track->active = category;
-    if (track->reset_on_switch && playing(track, category)->path != before) {
+    if (track->reset_on_switch && dip_camtrack_playing(track)->path != before) {
         dip_camtrack_restart(track, play_ns);
     }
 }
@@ -48,13 +47,13 @@ int64_t dip_camtrack_time(const DipCamTrack *track, int64_t play_ns) {
 }
 
 int64_t dip_camtrack_path_time(const DipCamTrack *track, int64_t play_ns) {
-    const DipCamPath *path = playing(track, track->active)->path;
+    const DipCamPath *path = dip_camtrack_playing(track)->path;
     return path ? dip_campath_time_at_end(path, track->end, dip_camtrack_time(track, play_ns)) : 0;
 }
 
 bool dip_camtrack_pose(const DipCamTrack *track, int64_t play_ns, DipPose *pose) {
     DIP_FP_MODE_SCOPE();
-    const DipCamCategory *category = playing(track, track->active);
+    const DipCamCategory *category = dip_camtrack_playing(track);
     if (!category->path) {
         return false;
     }

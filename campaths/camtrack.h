@@ -61,6 +61,10 @@ DIP_API void dip_camtrack_set_end(DipCamTrack *track, DipCamPathEnd end);
 // time.
 DIP_API void dip_camtrack_switch(DipCamTrack *track, int category, int64_t play_ns);
 
+// Returns the category whose path plays: the active one or, if that has no path, category 0. If
+// this has no path either, none plays.
+DIP_API const DipCamCategory *dip_camtrack_playing(const DipCamTrack *track);
+
 // Returns the active path to its beginning.
 DIP_API void dip_camtrack_restart(DipCamTrack *track, int64_t play_ns);
 

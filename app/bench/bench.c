@@ -16,7 +16,6 @@
 #include "renderer/post/post.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 // A view is a scene with the camera path through it.
@@ -52,12 +51,10 @@ typedef struct Context {
 // --- views -------------------------------------------------------------------------------------
 
 static View session_view(const DipSession *session) {
-    const DipCamTrack *track = &session->track;
-    const DipCamCategory *slot =
-        &track->categories[track->categories[track->active].path ? track->active : 0];
+    const DipCamCategory *slot = dip_camtrack_playing(&session->track);
     return (View){.scene = session->scene,
                   .path = slot->path,
-                  .end = track->end,
+                  .end = session->track.end,
                   .fov_y_deg = slot->fov_y_deg};
 }
 
@@ -216,37 +213,28 @@ static void enlarge(const Drawer *drawer, DipOptionSize size, DipFrame *picture)
     picture->stages.total_ms += 1e-6 * (double)(dip_clock_ns() - begin_ns);
 }
 
-// Draws a frame of a combination. The frames divide the camera path evenly. *picture is valid until
-// the combination draws again.
-static bool draw_frame(Context *bench, int combination, int frame, DipFrame *picture,
-                       DipError *err) {
+// Draws a frame of a combination. The frames divide the camera path evenly.
+static bool draw_sample(Context *bench, int combination, int frame, bool hash,
+                        DipBenchSample *sample, DipError *err) {
     const Drawer *drawer = &bench->drawers[combination];
     const View *view = drawer->view;
     const int64_t time_ns =
         dip_campath_span_ns(view->path, view->end) / bench->plan->options.frames * frame;
     DipPose pose = {.fov_y_deg = view->fov_y_deg};
+    DipFrame picture;
     dip_campath_sample(view->path, dip_campath_time_at_end(view->path, view->end, time_ns), &pose);
     dip_painter_set_frame_index(drawer->painter, (uint64_t)frame);
-    if (!dip_painter_draw(drawer->painter, view->scene, &pose, time_ns, picture, err)) {
+    if (!dip_painter_draw(drawer->painter, view->scene, &pose, time_ns, &picture, err)) {
         return false;
     }
     if (drawer->enlarger) {
-        enlarge(drawer, dip_bench_values(bench->plan, combination).size, picture);
-    }
-    return true;
-}
-
-// --- programs ------------------------------------------------------------------------------------
-
-static bool draw_sample(Context *bench, int combination, int frame, bool hash,
-                        DipBenchSample *sample, DipError *err) {
-    DipFrame picture;
-    if (!draw_frame(bench, combination, frame, &picture, err)) {
-        return false;
+        enlarge(drawer, dip_bench_values(bench->plan, combination).size, &picture);
     }
     dip_bench_sample_set(sample, &picture, hash);
     return true;
 }
+
+// --- programs ------------------------------------------------------------------------------------
 
 // Draws in this process, which is the only one that is measured.
 static bool draw_here(void *context, int combination, int frame, bool hash, DipBenchSample *sample,
@@ -260,28 +248,23 @@ static bool draw_here(void *context, int combination, int frame, bool hash, DipB
     return draw_sample(bench, combination, frame, hash, sample, err);
 }
 
-typedef struct Server {
-    const DipBenchPlan *plan;
-    Context *bench;
-} Server;
-
 static bool answer(void *context, const char *request, DipBenchSample *sample, DipError *err) {
-    const Server *server = context;
+    Context *bench = context;
     int combination, frame, hash;
     if (sscanf(request, "draw %d %d %d", &combination, &frame, &hash) != 3 || combination < 0 ||
-        combination >= server->plan->count || frame < 0 || frame >= server->plan->options.frames) {
+        combination >= bench->plan->count || frame < 0 || frame >= bench->plan->options.frames) {
         return dip_error_set_runtime(err, DIP_ERROR_FORMAT, NULL, 0, "--serve",
                                      "'%.60s' is not a request; give draw COMBINATION FRAME 0|1",
                                      request);
     }
-    return draw_sample(server->bench, combination, frame, hash != 0, sample, err);
+    return draw_sample(bench, combination, frame, hash != 0, sample, err);
 }
 
 static bool serve(const DipBenchPlan *plan, const DipSession *session, DipError *err) {
-    Server server = {plan, create_context(plan, session, err)};
-    const bool done = server.bench && dip_child_serve("bench", plan->count, plan->options.frames,
-                                                      NULL, answer, &server, err);
-    destroy_context(&server.bench);
+    Context *bench = create_context(plan, session, err);
+    const bool done = bench && dip_child_serve("bench", plan->count, plan->options.frames, NULL,
+                                               answer, bench, err);
+    destroy_context(&bench);
     return done;
 }
 

@@ -3,10 +3,10 @@
 #include "app/bench/plan.h"
 
 #include "app/cli/machine.h"
+#include "app/files/put.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 // Gives each axis without values its default (plan.h), replaces 0 threads by the number of
 // processors, and chooses the seed.
@@ -160,11 +160,10 @@ static void write_label(const DipBenchPlan *plan, int combination, bool varies,
                         DipBenchAxis without, char label[DIP_BENCH_LABEL_SIZE]) {
     *label = '\0';
     for (int axis = 0; axis < DIP_BENCH_AXIS_COUNT; axis++) {
-        const size_t used = strlen(label);
         char value[DIP_BENCH_LABEL_SIZE];
         dip_bench_value_name(plan, combination, (DipBenchAxis)axis, value, sizeof value);
         if ((plan->options.counts[axis] > 1) == varies && axis != (int)without && *value) {
-            snprintf(label + used, DIP_BENCH_LABEL_SIZE - used, "%s%.90s", used ? ", " : "", value);
+            dip_put_append(label, DIP_BENCH_LABEL_SIZE, "%s%.90s", *label ? ", " : "", value);
         }
     }
 }

@@ -47,7 +47,7 @@ typedef struct Series {
 static bool same_but_samples(const DipQuality *a, const DipQuality *b) {
     DipQuality other = *b;
     other.step[DIP_SETTING_AA] = a->step[DIP_SETTING_AA];
-    return memcmp(a, &other, sizeof other) == 0;
+    return dip_quality_equal(a, &other);
 }
 
 // Returns whether two combinations belong to the same series, that is, whether they differ on the

@@ -17,9 +17,7 @@ static void print_scene(const DipBenchPlan *plan, const DipSession *session, FIL
         fprintf(out, "scene    grid%s\n", view);
         return;
     }
-    const char *name = dip_session_scene_file(session);
-    const char *slash = strrchr(name, '/');
-    fprintf(out, "scene    %s", slash ? slash + 1 : name);
+    fprintf(out, "scene    %s", dip_base_name(dip_session_scene_file(session)));
     if (session->scene) {
         fprintf(out, ", %" PRIu64 " triangles", dip_scene_triangle_count(session->scene));
     }

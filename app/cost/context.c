@@ -44,18 +44,10 @@ static bool open_source(DipCostContext *cost, bool judges, DipError *err) {
 bool dip_cost_context_open(DipCostContext *cost, const DipSession *session, DipCostReport *report,
                            bool judges, DipError *err) {
     *cost = (DipCostContext){.session = session, .report = report};
-    const DipRendererDef def = {
-        .pool = session->pool,
-        .isa = session->isa,
-        .width = report->width,
-        .height = report->height,
-        .quality = report->options.baseline,
-        .reflection = session->reflection,
-        .force_all_effects = session->force_all_effects,
-    };
     bool opened = open_source(cost, judges, err);
     for (int gi = 0; opened && gi < 2; gi++) {
-        cost->renderers[gi] = dip_painter_create(&def, cost->gallery, err);
+        cost->renderers[gi] = dip_session_make_painter(
+            session, cost->gallery, &report->options.baseline, report->width, report->height, err);
         opened = cost->renderers[gi] != NULL;
     }
     opened = opened && prepare_textures(cost, err);

@@ -4,6 +4,7 @@
 
 #include "app/report/combinations.h"
 #include "app/cli/machine.h"
+#include "app/files/whole_file.h"
 #include "renderer/base/hash.h"
 
 #include <ctype.h>
@@ -45,8 +46,7 @@ static void name_path(const DipSession *session, int category, char name[DIP_COS
         return;
     }
     const bool is_camera = session->track.categories[0].name != NULL;
-    const char *slash = is_camera ? NULL : strrchr(own, '/');
-    snprintf(name, DIP_COST_PATH_NAME, "%s", slash ? slash + 1 : own);
+    snprintf(name, DIP_COST_PATH_NAME, "%s", is_camera ? own : dip_base_name(own));
     char *ending = is_camera ? NULL : strrchr(name, '.');
     if (ending && ending > name) {
         *ending = '\0';
@@ -294,8 +294,7 @@ void dip_cost_scene_name(const DipSession *session, char name[DIP_COST_TEXT]) {
                  dip_session_scene_look(session, session->options->look, 0));
         return;
     }
-    const char *slash = strrchr(file, '/');
-    snprintf(name, DIP_COST_TEXT, "%s", slash ? slash + 1 : file);
+    snprintf(name, DIP_COST_TEXT, "%s", dip_base_name(file));
 }
 
 void dip_cost_describe(DipCostReport *report, const DipSession *session) {

@@ -165,3 +165,11 @@ void dip_put_csv_text(FILE *out, const char *text) {
     put_escaped(out, text, csv_escapes);
     fputc('"', out);
 }
+
+void dip_put_append(char *text, size_t size_bytes, const char *format, ...) {
+    const size_t length = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + length, size_bytes - length, format, arguments);
+    va_end(arguments);
+}

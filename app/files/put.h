@@ -29,6 +29,10 @@ void dip_put_csv_text(FILE *out, const char *text);
 // Writes plain text, for a terminal or a text file.
 void dip_put_text(FILE *out, const char *format, ...) DIP_PRINTF(2, 3);
 
+// Appends to a text in an array of size_bytes, as printf writes. Nothing is escaped. What does not
+// fit is cut.
+void dip_put_append(char *text, size_t size_bytes, const char *format, ...) DIP_PRINTF(3, 4);
+
 // Replaces control characters and malformed UTF-8 in a text by '?', in place.
 void dip_put_clean(char *text);
 

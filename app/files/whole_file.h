@@ -7,10 +7,17 @@
 
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+// Returns the file's name without its folder, as a part of `file`.
+static inline const char *dip_base_name(const char *file) {
+    const char *slash = strrchr(file, '/');
+    return slash ? slash + 1 : file;
+}
 
 // Writes to a temporary file beside `file` and renames it, so that a half-written file never has
 // the final name. Fails with DIP_ERROR_IO and the system's reason, or with DIP_ERROR_MEMORY.

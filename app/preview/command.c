@@ -11,7 +11,6 @@
 #include "app/preview/loop/loop.h"
 #include "app/preview/loop/reload.h"
 #include "app/preview/loop/view.h"
-#include "app/preview/state/pilot.h"
 #include "app/session/session.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/clock.h"
@@ -213,7 +212,7 @@ static bool open_parts(DipPreviewDef *def, DipRemote **remote, char cache[PATH_M
 static bool run_loop(const DipPreviewDef *def, DipError *err) {
     DipPreview *preview = dip_preview_create(def, err);
     bool done = preview != NULL;
-    while (done && !dip_preview_has_quit(preview)) {
+    while (done && !dip_preview_state(preview)->quit) {
         done = dip_preview_turn(preview, err);
     }
     def->session->times.ended_ns = dip_clock_ns();
@@ -231,7 +230,6 @@ static bool run(DipSession *session, const void *context, DipError *err) {
     DipPreviewDef def = {
         .session = session,
         .measures_prices = true,
-        .flying_speed_m_per_s = dip_flying_speed(session),
         .ui_scale = options->ui_scale,
         .hides_panel = options->hides_panel,
         .load_scene_def = dip_session_keep_model,

@@ -1,6 +1,7 @@
 // Collects the texts that Diptych writes into a PNG file (picture_texts.h).
 #include "app/session/picture_texts.h"
 
+#include "app/files/put.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/number.h"
 
@@ -23,17 +24,13 @@ static void add(DipPictureTexts *texts, const char *keyword, const char *format,
     texts->items[texts->count++] = (DipPngText){keyword, text};
 }
 
-size_t dip_pose_format(const DipPose *pose, char *text, size_t size_bytes) {
-    size_t length = 0;
+void dip_pose_format(const DipPose *pose, char *text, size_t size_bytes) {
     text[0] = '\0';
-    for (int i = 0; i < 7 && length < size_bytes; i++) {
+    for (int i = 0; i < 7; i++) {
         char number[DIP_NUMBER_TEXT_SIZE];
         dip_number_format(i < 3 ? pose->position_world[i] : pose->orientation[i - 3], number);
-        const int added =
-            snprintf(text + length, size_bytes - length, "%s%s", i ? " " : "", number);
-        length += added > 0 ? (size_t)added : 0;
+        dip_put_append(text, size_bytes, "%s%s", i ? " " : "", number);
     }
-    return length;
 }
 
 // Returns the text of "Path", which says where the camera's pose comes from.
@@ -51,12 +48,9 @@ static const char *path_name(const DipSession *session, bool free_camera) {
     if (options && options->path) {
         return options->path;
     }
-    // A category without a path of its own plays the path of category 0.
     const DipCamTrack *track = &session->track;
-    return session->orbiting
-               ? "orbit"
-               : dip_session_path_name(session,
-                                       track->categories[track->active].path ? track->active : 0);
+    const int category = (int)(dip_camtrack_playing(track) - track->categories);
+    return session->orbiting ? "orbit" : dip_session_path_name(track, category);
 }
 
 void dip_picture_texts_make(DipPictureTexts *texts, const DipSession *session, const DipPose *pose,

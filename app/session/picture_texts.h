@@ -40,7 +40,7 @@ void dip_picture_texts_add_pane(DipPictureTexts *texts, int pane, const DipQuali
                                 const DipFrame *frame);
 
 // Writes a pose as "x y z qx qy qz qw", the order of camera path files. Each number is read back as
-// the same double. Returns the length of the text.
-size_t dip_pose_format(const DipPose *pose, char *text, size_t size_bytes);
+// the same double.
+void dip_pose_format(const DipPose *pose, char *text, size_t size_bytes);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "app/cli/log.h"
 #include "app/cli/program_file.h"
+#include "app/files/put.h"
 #include "renderer/base/clock.h"
 
 #include <limits.h>
@@ -150,21 +151,29 @@ static void set_reflection(DipSession *session) {
     }
 }
 
+DipPainter *dip_session_make_painter(const DipSession *session, DipGallery *gallery,
+                                     const DipQuality *quality, int width, int height,
+                                     DipError *err) {
+    const DipRendererDef def = {
+        .pool = session->pool,
+        .isa = session->isa,
+        .width = width,
+        .height = height,
+        .quality = *quality,
+        .reflection = session->reflection,
+        .force_all_effects = session->force_all_effects,
+    };
+    return dip_painter_create(&def, gallery, err);
+}
+
 bool dip_session_make_painters(const DipSession *session, DipGallery *gallery,
                                const DipQuality qualities[DIP_PANE_COUNT],
                                DipPainter *painters[DIP_PANE_COUNT], DipError *err) {
+    const DipConfigSize size = session->pane_size;
     bool made = true;
     for (int p = 0; made && p < DIP_PANE_COUNT; p++) {
-        const DipRendererDef def = {
-            .pool = session->pool,
-            .isa = session->isa,
-            .width = session->pane_size.width,
-            .height = session->pane_size.height,
-            .quality = qualities[p],
-            .reflection = session->reflection,
-            .force_all_effects = session->force_all_effects,
-        };
-        painters[p] = dip_painter_create(&def, gallery, err);
+        painters[p] =
+            dip_session_make_painter(session, gallery, &qualities[p], size.width, size.height, err);
         made = painters[p] != NULL;
     }
     return made;
@@ -346,8 +355,7 @@ bool dip_session_draw_pose(DipSession *session, const DipPose *pose, int64_t pla
                            uint64_t frame_index, DipSessionFrame *frame, DipError *err) {
     const DipQuality current = dip_painter_quality(session->renderers[DIP_PANE_CURRENT]);
     const DipQuality requested = dip_painter_quality(session->renderers[DIP_PANE_REQUESTED]);
-    frame->copied =
-        !session->force_all_effects && memcmp(&current, &requested, sizeof current) == 0;
+    frame->copied = !session->force_all_effects && dip_quality_equal(&current, &requested);
     for (int p = 0; p < DIP_PANE_COUNT; p++) {
         dip_painter_set_frame_index(session->renderers[p], frame_index);
     }
@@ -390,8 +398,7 @@ void dip_start_times_frame(DipStartTimes *times) {
 
 void dip_start_times_format(const DipStartTimes *times, char *text, size_t size_bytes) {
     snprintf(text, size_bytes, "start, ms:");
-#define ADD_PART(name, what)                                                                       \
-    snprintf(text + strlen(text), size_bytes - strlen(text), " %s %.1f", #name, times->name##_ms);
+#define ADD_PART(name, what) dip_put_append(text, size_bytes, " %s %.1f", #name, times->name##_ms);
     DIP_START_TIME_LIST(ADD_PART)
 #undef ADD_PART
 }

@@ -161,6 +161,13 @@ const char *dip_session_scene_file(const DipSession *session);
 DipGallery *dip_session_open_gallery(const DipSession *session, DipPool *pool, DipIsa isa,
                                      DipError *err);
 
+// Makes a painter that draws `gallery`, or the session's models if `gallery` is NULL, with the
+// session's threads, instruction set and reflection. Its frames have the given size in pixels. The
+// caller destroys it. Fails as dip_painter_create does.
+DipPainter *dip_session_make_painter(const DipSession *session, DipGallery *gallery,
+                                     const DipQuality *quality, int width, int height,
+                                     DipError *err);
+
 // Shows the next scene in a ring of all scenes of the gallery and, if they are loaded, the models.
 // `step` is 1 for the next scene and -1 for the one before. The session must have renderers. The
 // panes keep their settings. The new renderers have the size `pane_size`, so a caller that has
@@ -178,12 +185,13 @@ const char *dip_session_scene_look(const DipSession *session, int look, int64_t 
 // Returns the field of view of --fov, or fov_y_deg if the option is not given.
 double dip_session_fov(const DipSession *session, double fov_y_deg);
 
-// Returns the name of a camera path of the track: the name of a category ("DEFAULT", "AA", ...) or
-// of a camera of the models.
-const char *dip_session_path_name(const DipSession *session, int category);
-
-// Returns the name of a category of the ini's camera paths: "DEFAULT", "AA", ...
+// Returns the name of a category of the ini's camera paths ("DEFAULT", "AA", ...), or "?" for
+// another number.
 const char *dip_session_category(int category);
+
+// Returns the name of a camera path of a track: the name of a category or of a camera of the
+// models.
+const char *dip_session_path_name(const DipCamTrack *track, int category);
 
 // One frame of both panes.
 typedef struct DipSessionFrame {

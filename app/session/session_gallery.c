@@ -63,7 +63,7 @@ static DipCamPath *make_path(int scene, DipError *err) {
     static const int64_t period_ns = 15625000;
     const size_t count = (size_t)(dip_gallery_duration_ns(scene) / period_ns);
     DipCamKey *keys = malloc(count * sizeof *keys);
-    DipCamPath *path = NULL;
+    DipCamPath *path;
     if (!keys) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "paths", "out of memory");
         return NULL;
@@ -74,9 +74,7 @@ static DipCamPath *make_path(int scene, DipError *err) {
         memcpy(keys[i].position_world, pose.position_world, sizeof keys[i].position_world);
         memcpy(keys[i].orientation, pose.orientation, sizeof keys[i].orientation);
     }
-    if (!dip_campath_create(keys, count, period_ns, &path, err)) {
-        path = NULL;
-    }
+    (void)dip_campath_create(keys, count, period_ns, &path, err); // `path` is NULL on failure.
     free(keys);
     return path;
 }
@@ -118,19 +116,15 @@ static bool load_mip_pictures(DipSession *session, DipPainter *const painters[DI
 // Shows a scene of the gallery, or the models if scene is the number of scenes.
 static bool show_scene(DipSession *session, int scene, DipError *err) {
     const bool models = scene == dip_gallery_scene_count();
-    DipSession next = *session;
     const DipQuality qualities[DIP_PANE_COUNT] = {dip_painter_quality(session->renderers[0]),
                                                   dip_painter_quality(session->renderers[1])};
     DipPainter *painters[DIP_PANE_COUNT] = {NULL, NULL};
     DipGallery *gallery = NULL;
     DipCamPath *path = NULL;
-    next.gallery_scene = scene;
-    if (!models) {
-        gallery = dip_session_open_gallery(&next, session->pool, session->isa, err);
+    if (!models) { // --look is for the first scene only, so this one has its first look.
+        const DipGalleryDef def = {scene, session->pool, session->isa, session->assets};
+        gallery = dip_gallery_create(&def, err);
         path = gallery ? make_path(scene, err) : NULL;
-    }
-    if (gallery) {
-        dip_gallery_set_look(gallery, 0); // --look is for the first scene only.
     }
     if ((!models && !path) ||
         !dip_session_make_painters(session, gallery, qualities, painters, err) ||

@@ -6,7 +6,6 @@
 #include "renderer/base/number.h"
 #include "renderer/base/pool.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define FIELD(name) offsetof(DipSessionOptions, name)

@@ -261,13 +261,17 @@ static bool make_orbit(DipSession *session, DipErrorList *faults) {
 
 // The ini's key for a category is "CAMPATH_" and the category's name.
 const char *dip_session_category(int category) {
+    if (category < 0 || category >= DIP_CATEGORY_COUNT) {
+        return "?";
+    }
     return dip_config_key_name((DipConfigKey)(DIP_KEY_CAMPATH_DEFAULT + 2 * category)) +
            strlen("CAMPATH_");
 }
 
-const char *dip_session_path_name(const DipSession *session, int category) {
-    return category < DIP_CATEGORY_COUNT ? dip_session_category(category)
-                                         : session->track.categories[category].name;
+const char *dip_session_path_name(const DipCamTrack *track, int category) {
+    const bool is_camera = category >= DIP_CATEGORY_COUNT && category < DIP_CAMTRACK_CATEGORIES;
+    const char *name = is_camera ? track->categories[category].name : NULL;
+    return name ? name : dip_session_category(category);
 }
 
 static bool choose_category(DipSession *session, DipErrorList *faults) {

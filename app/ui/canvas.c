@@ -39,10 +39,6 @@ DipRect dip_rect_unite(DipRect a, DipRect b) {
                         dip_max(a.y + a.height, b.y + b.height));
 }
 
-bool dip_colour_equals(DipColour a, DipColour b) {
-    return memcmp(&a, &b, sizeof a) == 0;
-}
-
 // --- the canvas ----------------------------------------------------------------------------------
 
 bool dip_canvas_resize(DipCanvas *canvas, int width, int height, DipError *err) {

@@ -214,7 +214,7 @@ static bool same_command(const Frame *a, const Frame *b, size_t index) {
     const Command *p = &a->commands[index];
     const Command *q = &b->commands[index];
     return p->kind == q->kind && dip_rect_equals(p->box, q->box) &&
-           dip_colour_equals(p->colour, q->colour) && p->version == q->version &&
+           memcmp(&p->colour, &q->colour, sizeof p->colour) == 0 && p->version == q->version &&
            p->size == q->size && p->x == q->x && p->y == q->y &&
            (p->kind != COMMAND_TEXT || strcmp(a->texts + p->text, b->texts + q->text) == 0);
 }

@@ -42,12 +42,13 @@ typedef enum DipKeycode {
     DIP_KEYCODE_F12
 } DipKeycode;
 
-// Modifier keys that are held, as bits.
+// Modifier keys that are held, as bits. COMMAND stands for those that turn a key into a command.
 enum {
     DIP_MODIFIER_SHIFT = 1,
     DIP_MODIFIER_CTRL = 2,
     DIP_MODIFIER_ALT = 4,
-    DIP_MODIFIER_SUPER = 8
+    DIP_MODIFIER_SUPER = 8,
+    DIP_MODIFIER_COMMAND = DIP_MODIFIER_CTRL | DIP_MODIFIER_ALT | DIP_MODIFIER_SUPER
 };
 
 typedef enum DipMouseButton {

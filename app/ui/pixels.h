@@ -56,7 +56,6 @@ DipRect dip_rect_unite(DipRect a, DipRect b);
 
 bool dip_rect_is_empty(DipRect rect);
 bool dip_rect_equals(DipRect a, DipRect b);
-bool dip_colour_equals(DipColour a, DipColour b);
 
 // Returns whether a pixel lies in the rectangle.
 bool dip_rect_holds(DipRect rect, int x, int y);

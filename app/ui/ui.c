@@ -118,7 +118,14 @@ static void take_mouse(DipUi *ui, const DipUiControl *control, DipUiInput *input
 }
 
 static bool is_plain_key(const DipEvent *event) {
-    return event->kind == DIP_EVENT_KEY_DOWN && !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
+    return event->kind == DIP_EVENT_KEY_DOWN && !(event->modifiers & DIP_MODIFIER_COMMAND);
+}
+
+bool dip_ui_arrow(const DipEvent *event, int *dx, int *dy) {
+    const DipKeycode key = is_plain_key(event) ? event->key : DIP_KEYCODE_NONE;
+    *dx = (key == DIP_KEYCODE_RIGHT) - (key == DIP_KEYCODE_LEFT);
+    *dy = (key == DIP_KEYCODE_DOWN) - (key == DIP_KEYCODE_UP);
+    return *dx != 0 || *dy != 0;
 }
 
 static void take_key(DipUi *ui, const DipUiControl *control, DipUiInput *input) {

@@ -77,6 +77,10 @@ void dip_ui_blur(DipUi *ui);
 // click on a control that takes digits.
 DipUiId dip_ui_focus(const DipUi *ui);
 
+// Returns whether the event is a press of an arrow key without Ctrl, Alt and Super. Sets *dx and
+// *dy to the key's direction: 1 is right or down, -1 left or up, 0 neither.
+bool dip_ui_arrow(const DipEvent *event, int *dx, int *dy);
+
 // --- controls ----------------------------------------------------------------------------------
 
 typedef struct DipUiControl {

@@ -6,7 +6,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { TIP_SIZE = 12, TIP_PAD = 8, TIP_WIDTH = 340, TIP_MAX_LINES = 10 };
 static const int64_t tip_delay_ns = 400000000;
@@ -251,28 +250,19 @@ static void move_focus_towards(DipUi *ui, int dx, int dy) {
 // Moves the focus by an event that no control took. Returns true if the event is a
 // press of Tab, or of an arrow key while the focus shows, with no modifier but Shift.
 static bool move_focus_by_key(DipUi *ui, const DipEvent *event) {
-    const bool plain = !(event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT);
-    if (event->kind != DIP_EVENT_KEY_DOWN || !plain) {
+    if (event->kind != DIP_EVENT_KEY_DOWN || (event->modifiers & DIP_MODIFIER_COMMAND)) {
         return false;
     }
     if (event->key == DIP_KEYCODE_TAB) {
         move_focus(ui, event->modifiers & DIP_MODIFIER_SHIFT);
         return true;
     }
-    static const struct {
-        DipKeycode key;
-        int dx, dy;
-    } arrows[] = {{DIP_KEYCODE_LEFT, -1, 0},
-                  {DIP_KEYCODE_RIGHT, 1, 0},
-                  {DIP_KEYCODE_UP, 0, -1},
-                  {DIP_KEYCODE_DOWN, 0, 1}};
-    for (int i = 0; ui->focus_shows && i < 4; ++i) {
-        if (event->key == arrows[i].key) {
-            move_focus_towards(ui, arrows[i].dx, arrows[i].dy);
-            return true;
-        }
+    int dx, dy;
+    if (!ui->focus_shows || !dip_ui_arrow(event, &dx, &dy)) {
+        return false;
     }
-    return false;
+    move_focus_towards(ui, dx, dy);
+    return true;
 }
 
 // Hides a focus whose control is gone or can no longer have the focus, so that keys do not go to a

@@ -15,7 +15,8 @@ tests="renderer/catalogue/rows/numbers.c tests/assets/test_fp_modes.c
 without_floats='
     dip_animated_model_def dip_animated_model_destroy dip_animated_model_find
     dip_animated_pose_destroy
-    dip_camtrack_path_time dip_camtrack_restart dip_camtrack_set_end dip_camtrack_time
+    dip_camtrack_path_time dip_camtrack_playing dip_camtrack_restart dip_camtrack_set_end
+    dip_camtrack_time
     dip_campath_destroy dip_campath_span_ns dip_campath_time_at_end
     dip_config_file_fault dip_config_free dip_config_key_name dip_config_same_file
     dip_model_cameras_destroy dip_model_destroy dip_model_times

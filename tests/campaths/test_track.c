@@ -84,6 +84,7 @@ static void switching_paths_restarts_or_keeps_the_time(void **context) {
         DipCamTrack track = dip_camtrack_make(reset);
         DipPose pose = {.fov_y_deg = 1.0};
         assert_false(dip_camtrack_pose(&track, 0, &pose));
+        assert_null(dip_camtrack_playing(&track)->path);
         assert_true(pose.fov_y_deg == 1.0);
         dip_camtrack_set(&track, 0, a, 55.0);
         dip_camtrack_set(&track, 2, a, 50.0); // The same path in another category.
@@ -99,6 +100,7 @@ static void switching_paths_restarts_or_keeps_the_time(void **context) {
         assert_true(pose.position_world[1] == 5.0 && pose.fov_y_deg == 45.0);
         // Category 7 has no path, so the path of category 0 plays.
         dip_camtrack_switch(&track, 7, 5 * SECOND / 2);
+        assert_ptr_equal(dip_camtrack_playing(&track), &track.categories[0]);
         assert_true(dip_camtrack_pose(&track, 5 * SECOND / 2, &pose));
         assert_true(pose.position_world[0] == (reset ? 0.0 : 5.0) && pose.fov_y_deg == 55.0);
         dip_camtrack_restart(&track, 3 * SECOND);

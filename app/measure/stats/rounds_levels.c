@@ -6,7 +6,6 @@
 
 #include "app/measure/stats/estimate.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum {

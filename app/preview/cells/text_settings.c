@@ -2,7 +2,6 @@
 #include "app/preview/cells/text_view.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum {
     BLOCK_COLUMNS = 44,  // Width of a column of blocks; a block shows one setting.
@@ -13,17 +12,18 @@ enum {
     STEP_COLUMNS = 6,    // Least width of a step in its row.
     FIGURE_COLUMNS = 15, // Width of a step's time and change of FLIP at the end of a row.
     MAX_BLOCK_COLUMNS = 3,
+    COLUMN_BLOCKS = 5,  // Blocks in a column.
     MAX_LINE_STEPS = 6, // Most steps of a block on one line.
     MARGIN = 1
 };
 
 // Columns of blocks on a wide screen, from left to right. Settings that belong together share a
-// column. -1 ends a column.
-static const int block_columns[MAX_BLOCK_COLUMNS][6] = {
-    {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST, -1},
-    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_MIPLOD, DIP_SETTING_SHARPEN, -1},
+// column.
+static const DipSetting block_columns[MAX_BLOCK_COLUMNS][COLUMN_BLOCKS] = {
+    {DIP_SETTING_AA, DIP_SETTING_TAA, DIP_SETTING_AAA, DIP_SETTING_ASD, DIP_SETTING_POST},
+    {DIP_SETTING_AF, DIP_SETTING_AAF, DIP_SETTING_OPT, DIP_SETTING_MIPLOD, DIP_SETTING_SHARPEN},
     {DIP_SETTING_SHADOWS, DIP_SETTING_SCALE, DIP_SETTING_UPSCALE, DIP_SETTING_GI,
-     DIP_SETTING_MIPDEBUG, -1},
+     DIP_SETTING_MIPDEBUG},
 };
 
 static bool is_switch(DipSetting setting) {
@@ -184,8 +184,8 @@ static void draw_block(DipTextView *view, DipSetting setting, int row, int colum
 static void draw_blocks(DipTextView *view, DipTextArea body) {
     for (int c = 0; c < MAX_BLOCK_COLUMNS; ++c) {
         int row = body.row;
-        for (int i = 0; i < 5 && block_columns[c][i] >= 0; ++i) {
-            const DipSetting setting = (DipSetting)block_columns[c][i];
+        for (int i = 0; i < COLUMN_BLOCKS; ++i) {
+            const DipSetting setting = block_columns[c][i];
             const int rows = block_rows(setting, view->state->costs != NULL);
             const int blank = is_switch(setting) ? 0 : 1; // The blank row need not fit.
             if (row + rows - blank <= body.row + body.rows) {
@@ -203,7 +203,7 @@ static void draw_sum(DipTextView *view, DipTextArea body) {
     const DipPreviewState *state = view->state;
     const int column = body.column + MARGIN + MAX_BLOCK_COLUMNS * BLOCK_COLUMNS;
     const int end = body.column + body.columns;
-    const bool same = memcmp(&state->quality[0], &state->quality[1], sizeof(DipQuality)) == 0;
+    const bool same = dip_quality_equal(&state->quality[0], &state->quality[1]);
     for (int row = body.row; row < body.row + body.rows; ++row) {
         dip_text_put(&view->screen, row, column - 2, column - 1, dip_text_dim, "│");
     }
@@ -250,8 +250,8 @@ int dip_text_settings_rows(int columns, bool has_costs) {
     int most = 0;
     for (int c = 0; c < MAX_BLOCK_COLUMNS; ++c) {
         int rows = 0;
-        for (int i = 0; i < 5 && block_columns[c][i] >= 0; ++i) {
-            rows += block_rows((DipSetting)block_columns[c][i], has_costs);
+        for (int i = 0; i < COLUMN_BLOCKS; ++i) {
+            rows += block_rows(block_columns[c][i], has_costs);
         }
         most = dip_max(most, rows);
     }

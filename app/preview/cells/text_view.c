@@ -2,7 +2,6 @@
 #include "app/preview/cells/text_view.h"
 
 #include <stdio.h>
-#include <string.h>
 
 enum {
     // If the settings, times or costs that the user has opened would leave the panes fewer rows
@@ -17,10 +16,6 @@ enum {
 static const DipTextColours bar = {{196, 202, 210, 255}, {32, 36, 43, 255}};
 static const DipTextColours bar_title = {{255, 255, 255, 255}, {32, 36, 43, 255}};
 static const DipTextColours bar_accent = {{255, 190, 92, 255}, {32, 36, 43, 255}};
-
-void dip_text_view_free(DipTextView *view) {
-    dip_text_screen_free(&view->screen);
-}
 
 // --- layout ------------------------------------------------------------------------------------
 
@@ -222,14 +217,10 @@ bool dip_text_view_draw(DipTextView *view, const DipPreviewState *state, int wid
 // Gives the focused setting its next step (`by` is 1) or the step before (-1), in the order of
 // dip_setting_step_at.
 static void move_step(const DipTextView *view, DipPreviewState *state, int by, int64_t now_ns) {
-    const int count = dip_setting_info(view->focus)->step_count;
     const int now = state->quality[dip_preview_edited_pane(state)].step[view->focus];
-    for (int i = 0; i < count; ++i) {
-        if (dip_setting_step_at(view->focus, i) == now && i + by >= 0 && i + by < count) {
-            dip_preview_set_step(state, view->focus, dip_setting_step_at(view->focus, i + by),
-                                 now_ns);
-            return;
-        }
+    const int at = dip_setting_step_at(view->focus, now) + by;
+    if (at >= 0 && at < dip_setting_info(view->focus)->step_count) {
+        dip_preview_set_step(state, view->focus, dip_setting_step_at(view->focus, at), now_ns);
     }
 }
 
@@ -245,7 +236,7 @@ static bool press_key(DipTextView *view, DipPreviewState *state, const DipEvent 
                       int64_t now_ns) {
     const bool settings_show =
         !state->help && !dip_preview_shows_times(state) && !state->show_costs;
-    if (!settings_show || (event->modifiers & ~(unsigned)DIP_MODIFIER_SHIFT)) {
+    if (!settings_show || (event->modifiers & DIP_MODIFIER_COMMAND)) {
         return false;
     }
     switch (event->key) {

@@ -41,8 +41,6 @@ typedef struct DipTextView {
     const DipPreviewState *state; // Borrowed while the texts are written.
 } DipTextView;
 
-void dip_text_view_free(DipTextView *view);
-
 // Fills in the rectangles of the panes, in pixels of the picture.
 void dip_text_view_panes(const DipTextView *view, const DipPreviewState *state, int width,
                          int height, DipRect panes[DIP_PANE_COUNT]);

@@ -4,6 +4,7 @@
 
 #include "app/control/control.h"
 #include "app/files/pictures.h"
+#include "app/files/put.h"
 #include "app/preview/control/reply_private.h"
 #include "app/preview/tools/compare.h"
 #include "renderer/base/hash.h"
@@ -65,12 +66,11 @@ static bool choose_path(const DipPreviewMoment *moment, const char *name, DipErr
         if (!state->track->categories[c].path) {
             continue;
         }
-        if (strcmp(name, dip_preview_path_name(state, c)) == 0) {
+        if (strcmp(name, dip_session_path_name(state->track, c)) == 0) {
             dip_preview_act(state, DIP_ACTION_PATH, c, false, moment->now_ns);
             return true;
         }
-        strncat(accepted, " ", sizeof accepted - strlen(accepted) - 1);
-        strncat(accepted, dip_preview_path_name(state, c), sizeof accepted - strlen(accepted) - 1);
+        dip_put_append(accepted, sizeof accepted, " %s", dip_session_path_name(state->track, c));
     }
     return dip_error_set(err, DIP_ERROR_UNKNOWN, NULL, 0, "category",
                          "'%s' is no category with a camera path, accepted%s", name,
@@ -175,23 +175,17 @@ static bool resize(const DipPreviewMoment *moment, const DipControlRequest *requ
     const DipDisplay *display = moment->display;
     const DipToolState *tools = &moment->state->tools;
     const double display_scale = display->scale(display->context);
-    int width, height = request->height;
+    int width, height;
     if (!display->set_size) {
         return dip_error_set(err, DIP_ERROR_UNSUPPORTED, NULL, 0, "request",
                              "the host's window decides about the size");
     }
-    // Iterates, because the scale depends on the height, and the height on the scale.
-    for (int i = 0; i < 4; ++i) {
-        const double scale = dip_layout_scale(display_scale, tools, height);
-        dip_layout_window_size(request->width, request->height, scale, tools->open, tools->bare,
-                               &width, &height);
-    }
+    dip_layout_window_size(request->width, request->height, display_scale, tools, &width, &height);
     display->set_size(display->context, width, height);
     display->size(display->context, &width, &height);
     // The next turn lays the window out anew, so moment->layout has the old size.
-    const double scale = dip_layout_scale(display_scale, tools, height);
     const DipRect pane =
-        dip_layout_make(width, height, scale, tools->open, tools->bare).panes[DIP_PANE_CURRENT];
+        dip_layout_make(width, height, display_scale, tools).panes[DIP_PANE_CURRENT];
     cJSON_AddNumberToObject(reply, "width", pane.width);
     cJSON_AddNumberToObject(reply, "height", pane.height);
     return true;
@@ -418,9 +412,7 @@ static void press(void *context, const DipPreviewMoment *moment, const DipEvent 
     DipWindow window = {
         .state = moment->state, .layout = &moment->layout, .now_ns = moment->now_ns};
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipFrame *frame = &moment->panes[p];
-        window.frames[p] =
-            (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+        window.frames[p] = dip_frame_pixels(&moment->panes[p]);
     }
     int pane, x, y;
     if (dip_compare_pixel_at(&window, event->x, event->y, &pane, &x, &y)) {

@@ -24,22 +24,16 @@ static void append(cJSON *array, cJSON *item) {
 // Returns the time on the camera path, from 0 to the path's duration. Without a path, returns the
 // time since track->start_ns, which may be longer.
 static double path_time_s(const DipPreviewState *state) {
-    const DipCamTrack *track = state->track;
-    const bool has_path = track->categories[track->active].path || track->categories[0].path;
-    const int64_t time_ns =
-        has_path ? dip_preview_path_ns(state) : dip_camtrack_time(track, state->play_ns);
+    const int64_t time_ns = dip_preview_playing_path(state)
+                                ? dip_preview_path_ns(state)
+                                : dip_camtrack_time(state->track, state->play_ns);
     return 1e-9 * (double)time_ns;
 }
 
 // Returns the name of the scene that the session shows. The request `scene` takes all these names
 // except "tour".
 static const char *scene_name(const DipSession *session) {
-    if (!session->shows_gallery) {
-        return "models";
-    }
-    return session->gallery_scene == DIP_GALLERY_TOUR
-               ? "tour"
-               : dip_gallery_info(session->gallery_scene)->name;
+    return session->shows_gallery ? dip_session_scene_file(session) : "models";
 }
 
 // Returns the name that the request `animation` has for the animation that plays, or "none".
@@ -58,7 +52,8 @@ static void add_state(cJSON *object, const DipPreviewMoment *moment) {
     const DipPreviewState *state = moment->state;
     cJSON_AddBoolToObject(object, "paused", state->paused);
     add_time(object, "time_s", path_time_s(state));
-    cJSON_AddStringToObject(object, "category", dip_preview_path_name(state, state->track->active));
+    cJSON_AddStringToObject(object, "category",
+                            dip_session_path_name(state->track, state->track->active));
     cJSON_AddBoolToObject(object, "free_camera", state->manual);
     cJSON_AddStringToObject(object, "scene", scene_name(moment->session));
     cJSON_AddStringToObject(object, "animation", animation_name(moment->session));
@@ -76,19 +71,14 @@ static void add_settings(cJSON *object, const DipPreviewMoment *moment) {
 // --- times and errors ----------------------------------------------------------------------------
 
 static void add_pane_times(cJSON *object, const char *name, const DipPaneFigures *figures) {
-    static const char *const stages[] = {
-#define STAGE_NAME(name, text) #name,
-        DIP_STAGE_LIST(STAGE_NAME)
-#undef STAGE_NAME
-    };
     cJSON *pane = cJSON_AddObjectToObject(object, name);
     add_time(pane, "ms", figures->ms);
     cJSON_AddNumberToObject(pane, "frames", figures->frames);
     cJSON_AddNumberToObject(pane, "fps", figures->fps);
     cJSON_AddBoolToObject(pane, "copied", figures->copied);
     cJSON *times = cJSON_AddObjectToObject(pane, "stages_ms");
-    for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
-        add_time(times, stages[s], figures->stage_ms[s]);
+    for (int s = 0; s < DIP_TIMED_PARTS; ++s) {
+        add_time(times, dip_bench_stage_names[s], figures->stage_ms[s]);
     }
 }
 
@@ -138,7 +128,7 @@ static void add_paths(cJSON *object, const DipPreviewMoment *moment) {
             break; // No further camera of the models has a path.
         }
         cJSON *path = cJSON_CreateObject();
-        cJSON_AddStringToObject(path, "category", dip_preview_path_name(state, c));
+        cJSON_AddStringToObject(path, "category", dip_session_path_name(state->track, c));
         cJSON_AddStringToObject(path, "title", dip_preview_path_title(state, c));
         cJSON_AddBoolToObject(path, "available", state->track->categories[c].path != NULL);
         append(paths, path);
@@ -180,7 +170,7 @@ static cJSON *describe_setting(DipSetting setting) {
     }
     cJSON_AddStringToObject(object, "default", info->steps[info->default_step]);
     if (category >= 0) {
-        cJSON_AddStringToObject(object, "category", dip_preview_category_name(category));
+        cJSON_AddStringToObject(object, "category", dip_session_category(category));
     }
     return object;
 }
@@ -287,9 +277,9 @@ static void add_step(cJSON *steps, const char *name, const DipPrice *price) {
 }
 
 static const char *source_name(const DipPrices *prices, const DipPriceSum *requested) {
-    return dip_prices_has_report(prices) && !dip_prices_are_rough(prices) ? "report"
-           : requested->state == DIP_PRICE_UNKNOWN                        ? "none"
-                                                                          : "rough";
+    return !dip_prices_are_rough(prices)           ? "report"
+           : requested->state == DIP_PRICE_UNKNOWN ? "none"
+                                                   : "rough";
 }
 
 static void add_prices(cJSON *object, const DipPreviewMoment *moment) {

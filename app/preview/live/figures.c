@@ -85,7 +85,7 @@ int64_t dip_taa_pace_next_ns(int64_t due_ns, int64_t turn_ns, int64_t refresh_ns
 
 void dip_figures_forget(DipFigures *figures, int pane) {
     dip_timing_clear(&figures->total[pane]);
-    for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
+    for (int s = 0; s < DIP_TIMED_PARTS; ++s) {
         dip_timing_clear(&figures->stages[pane][s]);
     }
     figures->shown[pane].frames = 0;
@@ -167,7 +167,7 @@ void dip_figures_update(DipFigures *figures, bool moving, int64_t now_ns) {
         if (!follow_median(shown, &figures->total[p], now_ns)) {
             continue;
         }
-        for (int s = 0; s < DIP_STAGE_COUNT; ++s) {
+        for (int s = 0; s < DIP_TIMED_PARTS; ++s) {
             shown->stage_ms[s] = dip_timing_median_ms(&figures->stages[p][s], now_ns);
         }
     }
@@ -193,14 +193,14 @@ __attribute__((format(printf, 4, 5))) static void add(Lines *lines, bool head, c
 }
 
 static void add_times(Lines *lines, const DipPaneFigures *figures) {
-    static const char *const names[DIP_STAGE_COUNT] = {"Geometry", "Raster", "Shading", "Resolve"};
+    static const char *const names[DIP_TIMED_PARTS] = {"Geometry", "Raster", "Shading", "Resolve"};
     double sum = 0.0;
-    for (int s = 0; s < DIP_STAGE_COUNT; s++) {
+    for (int s = 0; s < DIP_TIMED_PARTS; s++) {
         sum += figures->stage_ms[s];
     }
     add(lines, true, figures->frames == 1 ? "One frame" : "Frame, last second", "%.1f ms",
         figures->ms);
-    for (int s = 0; s < DIP_STAGE_COUNT; s++) {
+    for (int s = 0; s < DIP_TIMED_PARTS; s++) {
         add(lines, false, names[s], "%.2f ms %3.0f %%", figures->stage_ms[s],
             sum > 0.0 ? 100.0 * figures->stage_ms[s] / sum : 0.0);
     }

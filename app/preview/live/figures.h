@@ -3,8 +3,8 @@
 #ifndef DIP_APP_PREVIEW_LIVE_FIGURES_H
 #define DIP_APP_PREVIEW_LIVE_FIGURES_H
 
+#include "app/measure/timing/sample.h"
 #include "app/preview/live/error_thread.h"
-#include "renderer/scene/frame.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -71,18 +71,11 @@ int64_t dip_taa_pace_next_ns(int64_t due_ns, int64_t turn_ns, int64_t refresh_ns
 
 // --- figures -------------------------------------------------------------------------------------
 
-enum {
-#define DIP_STAGE_INDEX(name, text) DIP_STAGE_##name,
-    DIP_STAGE_LIST(DIP_STAGE_INDEX)
-#undef DIP_STAGE_INDEX
-        DIP_STAGE_COUNT
-};
-
 // The figures of a pane as the window shows them.
 typedef struct DipPaneFigures {
     double ms;  // Median frame time of the last second in which frames were drawn.
     int frames; // Number of these frames; 1 if `ms` is the time of a single frame.
-    double stage_ms[DIP_STAGE_COUNT];
+    double stage_ms[DIP_TIMED_PARTS]; // Times of the stages in DIP_STAGE_LIST.
     int fps; // Pictures presented in the last second; 0 if no rate is shown.
     DipEffects effects;
     DipCounters counters;
@@ -99,7 +92,7 @@ typedef struct DipPaneFigures {
 // Zero-initialise.
 typedef struct DipFigures {
     DipTiming total[DIP_PANE_COUNT];
-    DipTiming stages[DIP_PANE_COUNT][DIP_STAGE_COUNT];
+    DipTiming stages[DIP_PANE_COUNT][DIP_TIMED_PARTS];
     DipTiming presented;  // When pictures were presented; `ms` is 0.
     DipTiming dropped;    // When refreshes had no new picture; `ms` holds their number.
     int64_t presented_ns; // When the last picture was presented; 0 if nothing moved then.

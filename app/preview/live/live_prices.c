@@ -3,6 +3,7 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/machine.h"
+#include "app/files/put.h"
 #include "app/measure/metrics/meter.h"
 #include "app/preview/live/processor_share.h"
 #include "renderer/base/clock.h"
@@ -46,19 +47,10 @@ struct DipLivePrices {
 // --- painters ------------------------------------------------------------------------------------
 
 static DipPainter *painter_for(DipLivePrices *live, const DipQuality *quality, DipError *err) {
-    const DipSession *session = live->session;
     DipPainter **painter = &live->painters[quality->step[DIP_SETTING_GI] != 0];
     if (!*painter) {
-        const DipRendererDef def = {
-            .pool = session->pool,
-            .isa = session->isa,
-            .width = live->picture.width,
-            .height = live->picture.height,
-            .quality = *quality,
-            .reflection = session->reflection,
-            .force_all_effects = session->force_all_effects,
-        };
-        *painter = dip_painter_create(&def, session->gallery, err);
+        *painter = dip_session_make_painter(live->session, live->session->gallery, quality,
+                                            live->picture.width, live->picture.height, err);
     }
     return *painter;
 }
@@ -372,8 +364,7 @@ static void describe(const DipLivePrices *live, char *text, size_t size_bytes) {
         snprintf(text, size_bytes, "errors: %d of %d", count - live->errors_left, count);
     }
     if (waits) {
-        const size_t length = strlen(text);
-        snprintf(text + length, size_bytes - length, ", waiting for a free processor");
+        dip_put_append(text, size_bytes, ", waiting for a free processor");
     }
 }
 

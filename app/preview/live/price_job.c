@@ -134,11 +134,6 @@ void dip_price_job_follow(DipPriceJob *job, const DipQuality *current,
 
 // --- blocks --------------------------------------------------------------------------------------
 
-static void drop_block(DipPriceJob *job) {
-    dip_driver_destroy(&job->driver);
-    job->member_count = 0;
-}
-
 // Temporal AA has one sample pattern for frames with even indices and one for odd indices. Each
 // round begins with the pattern that the previous round timed, so that the rounds time both
 // patterns in turn.
@@ -213,7 +208,6 @@ static bool begin_block(DipPriceJob *job) {
     };
     job->driver = dip_driver_create(&def, &calls, &job->failure);
     job->failed = !job->driver;
-    job->member_count = job->failed ? 0 : job->member_count;
     return !job->failed;
 }
 
@@ -251,7 +245,7 @@ static bool end_block(DipPriceJob *job) {
     }
     done = done && log_block(job, rows, &job->failure);
     job->blocks++;
-    drop_block(job);
+    dip_driver_destroy(&job->driver);
     job->failed = !done;
     list_wanted(job);
     return !job->failed;
@@ -269,7 +263,7 @@ bool dip_price_job_step(DipPriceJob *job, double budget_ms) {
         const DipDriverStep step = dip_driver_step(job->driver, &job->failure);
         if (step == DIP_DRIVER_FAILED) {
             job->failed = true;
-            drop_block(job);
+            dip_driver_destroy(&job->driver);
             return news;
         }
         news |= step == DIP_DRIVER_DONE && end_block(job);

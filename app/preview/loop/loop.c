@@ -26,6 +26,7 @@ static void follow_refresh(DipPreview *preview) {
 }
 
 DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
+    DipQuality quality[DIP_PANE_COUNT];
     DipPreview *preview = calloc(1, sizeof *preview);
     if (!preview) {
         dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "preview", "out of memory");
@@ -33,9 +34,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     }
     preview->def = *def;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        preview->drawn_quality[p] = dip_painter_quality(def->session->renderers[p]);
+        quality[p] = dip_painter_quality(def->session->renderers[p]);
     }
-    preview->state = dip_preview_state_make(preview->drawn_quality, &def->session->track);
+    preview->state = dip_preview_state_make(quality, &def->session->track);
     preview->state.costs = def->costs;
     preview->state.choice = &preview->choice;
     preview->state.in_terminal = def->display.set_text != NULL;
@@ -43,7 +44,7 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->state.shows_gallery = def->session->shows_gallery;
     dip_pilot_enter(&preview->state.flight, def->session);
     if (def->session->shows_gallery) {
-        preview->state.look = preview->drawn_look = def->session->options->look;
+        preview->state.look = def->session->options->look;
     }
     preview->resized = true;
     preview->figures.outdated = true;
@@ -58,10 +59,9 @@ DipPreview *dip_preview_create(const DipPreviewDef *def, DipError *err) {
     preview->view = dip_view_create(def->display.set_text ? &preview->text : NULL, err);
     preview->prices = def->prices || !preview->view ? def->prices : dip_prices_create(err);
     preview->tools = preview->view && preview->prices ? dip_tools_create(err) : NULL;
-    preview->editor = preview->tools ? dip_path_editor_create(err) : NULL;
-    preview->state.editor = preview->editor;
+    preview->state.editor = preview->tools ? dip_path_editor_create(err) : NULL;
     preview->live_prices =
-        preview->editor ? dip_live_prices_create(def->session, preview->prices, err) : NULL;
+        preview->state.editor ? dip_live_prices_create(def->session, preview->prices, err) : NULL;
     if (!preview->live_prices) {
         dip_preview_destroy(&preview);
         return NULL;
@@ -85,7 +85,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     *preview_pointer = NULL;
     dip_error_thread_destroy(&preview->errors);
     dip_prefetch_end(&preview->prefetch);
-    dip_path_editor_destroy(&preview->editor);
+    dip_path_editor_destroy(&preview->state.editor);
     dip_tools_destroy(&preview->tools);
     dip_live_prices_destroy(&preview->live_prices);
     if (!preview->def.prices) {
@@ -93,7 +93,7 @@ void dip_preview_destroy(DipPreview **preview_pointer) {
     }
     dip_preview_choice_free(&preview->choice);
     dip_view_destroy(&preview->view);
-    dip_text_view_free(&preview->text);
+    dip_text_screen_free(&preview->text.screen);
     free(preview);
 }
 
@@ -101,13 +101,13 @@ DipViewInput dip_loop_view_input(DipPreview *preview, int64_t now_ns) {
     const DipDisplay *display = &preview->def.display;
     DipViewInput input = {
         .scale = display->scale(display->context),
-        .now_ns = now_ns,
-        .state = &preview->state,
-        .figures = preview->figures.shown,
-        .prices = preview->prices,
-        .tools = preview->tools,
         .text = display->set_text ? &preview->text : NULL,
-        .still = dip_preview_rests(&preview->state, preview->flying),
+        .window = {.state = &preview->state,
+                   .still = dip_preview_rests(&preview->state, preview->flying),
+                   .now_ns = now_ns,
+                   .figures = preview->figures.shown,
+                   .prices = preview->prices,
+                   .tools = preview->tools},
     };
     display->size(display->context, &input.width, &input.height);
     return input;
@@ -246,7 +246,6 @@ static void fly(DipPreview *preview, int64_t elapsed_ns) {
     const DipPilotTurn turn = {.session = preview->def.session,
                                .keys = dip_keys_camera(&preview->held),
                                .controllers = &preview->controllers,
-                               .speed_m_per_s = preview->def.flying_speed_m_per_s,
                                .elapsed_ns = elapsed_ns};
     preview->flying = dip_pilot_turn(&preview->state, &turn, &preview->pose);
     preview->state.scene_changes += preview->flying;
@@ -462,10 +461,6 @@ bool dip_preview_turn(DipPreview *preview, DipError *err) {
     }
     wait_for_turn(preview, shown);
     return true;
-}
-
-bool dip_preview_has_quit(const DipPreview *preview) {
-    return preview->state.quit;
 }
 
 const DipPreviewState *dip_preview_state(const DipPreview *preview) {

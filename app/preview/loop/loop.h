@@ -1,7 +1,7 @@
 // Runs the preview on any display: handles events, lets time pass, draws and presents.
 //
-// The owner calls dip_preview_turn until dip_preview_has_quit returns true. A turn handles the
-// events that have arrived, and draws and presents at most one frame. If the turn presented a
+// The owner calls dip_preview_turn until dip_preview_state(preview)->quit is true. A turn handles
+// the events that have arrived, and draws and presents at most one frame. If the turn presented a
 // frame, it then waits for the display's next refresh. Otherwise it waits a short time for an
 // event, or not at all while there are prices to measure.
 #ifndef DIP_APP_PREVIEW_LOOP_LOOP_H
@@ -42,15 +42,14 @@ typedef struct DipPreviewControl {
 } DipPreviewControl;
 
 typedef struct DipPreviewDef {
-    DipSession *session;         // Borrowed.
-    DipDisplay display;          // Borrowed; the owner closes it after dip_preview_destroy.
-    DipCostReport *costs;        // Borrowed; NULL if there is no cost report.
-    struct DipReload *reload;    // Borrowed; with NULL, no files or animations can be opened.
-    DipPrices *prices;           // Borrowed; with NULL, the preview makes prices of its own.
-    bool measures_prices;        // Rough prices (live_prices.h) are measured while nothing moves.
-    const char *cache;           // Borrowed folder of cached truths (truth.h), or NULL.
-    double flying_speed_m_per_s; // Speed of the free camera until the user changes the speed.
-    DipPreviewControl control;   // control.context is borrowed.
+    DipSession *session;       // Borrowed.
+    DipDisplay display;        // Borrowed; the owner closes it after dip_preview_destroy.
+    DipCostReport *costs;      // Borrowed; NULL if there is no cost report.
+    struct DipReload *reload;  // Borrowed; with NULL, no files or animations can be opened.
+    DipPrices *prices;         // Borrowed; with NULL, the preview makes prices of its own.
+    bool measures_prices;      // Rough prices (live_prices.h) are measured while nothing moves.
+    const char *cache;         // Borrowed folder of cached truths (truth.h), or NULL.
+    DipPreviewControl control; // control.context is borrowed.
     double ui_scale;    // Value of --ui-scale, which enlarges controls; 0 without the option.
     bool hides_panel;   // The window shows nothing but the panes at first.
     const char *notice; // Notice that shows at first; may be NULL. Copied.
@@ -68,9 +67,6 @@ void dip_preview_destroy(DipPreview **preview);
 
 // Runs one turn. Fails if drawing or presenting fails.
 bool dip_preview_turn(DipPreview *preview, DipError *err);
-
-// Returns whether the user or another program has ended the preview.
-bool dip_preview_has_quit(const DipPreview *preview);
 
 const DipPreviewState *dip_preview_state(const DipPreview *preview);
 

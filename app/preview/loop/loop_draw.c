@@ -15,14 +15,15 @@
 // times.
 static bool follow_settings(DipPreview *preview, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        DipPainter *painter = preview->def.session->renderers[p];
+        const DipQuality before = dip_painter_quality(painter);
         const DipQuality *wanted = &preview->state.quality[p];
-        if (memcmp(wanted, &preview->drawn_quality[p], sizeof *wanted) == 0) {
+        if (dip_quality_equal(wanted, &before)) {
             continue;
         }
-        if (!dip_painter_set_quality(preview->def.session->renderers[p], wanted, err)) {
+        if (!dip_painter_set_quality(painter, wanted, err)) {
             return false;
         }
-        preview->drawn_quality[p] = *wanted;
         dip_figures_forget(&preview->figures, p);
     }
     return true;
@@ -51,11 +52,8 @@ static bool keep_size(DipPreview *preview, DipError *err) {
 // Gives the renderers the panes' size. A frame's size is limited to DIP_MAX_FRAME_SIZE; if a pane
 // is larger, the view scales the frame up.
 static bool follow_size(DipPreview *preview, DipError *err) {
-    const DipLayout layout = dip_preview_layout(preview);
-    int width, height;
-    dip_compare_frame_size(&layout, preview->state.tools.comparison, &width, &height);
-    width = width < DIP_MAX_FRAME_SIZE ? width : DIP_MAX_FRAME_SIZE;
-    height = height < DIP_MAX_FRAME_SIZE ? height : DIP_MAX_FRAME_SIZE;
+    const int width = dip_min(preview->pane_width, DIP_MAX_FRAME_SIZE);
+    const int height = dip_min(preview->pane_height, DIP_MAX_FRAME_SIZE);
     if (width == preview->tried_width && height == preview->tried_height) {
         return true;
     }
@@ -74,9 +72,11 @@ static void number_picture(DipPreview *preview) {
     drawn.play_ns = preview->state.play_ns;
     drawn.width = preview->frame.panes[0].width;
     drawn.height = preview->frame.panes[0].height;
-    drawn.look = preview->drawn_look;
+    drawn.look = preview->state.look;
     drawn.gallery = preview->def.session->gallery;
-    memcpy(drawn.quality, preview->drawn_quality, sizeof drawn.quality);
+    for (int p = 0; p < DIP_PANE_COUNT; ++p) {
+        drawn.quality[p] = dip_painter_quality(preview->def.session->renderers[p]);
+    }
     if (memcmp(&drawn, &preview->drawn, sizeof drawn) != 0) {
         preview->drawn = drawn;
         ++preview->picture_number;
@@ -109,14 +109,11 @@ static bool take_back_settings(DipPreview *preview, DipError *err) {
     return draw_with_settings(preview, err);
 }
 
-static bool has_history(const DipPreview *preview) {
-    return preview->def.session->scene &&
-           (dip_quality_has_history(&preview->state.quality[DIP_PANE_CURRENT]) ||
-            dip_quality_has_history(&preview->state.quality[DIP_PANE_REQUESTED]));
-}
-
 bool dip_loop_settles(const DipPreview *preview) {
-    return has_history(preview) && preview->settling > 0;
+    const DipQuality *quality = preview->state.quality;
+    return preview->settling > 0 && preview->def.session->scene &&
+           (dip_quality_has_history(&quality[DIP_PANE_CURRENT]) ||
+            dip_quality_has_history(&quality[DIP_PANE_REQUESTED]));
 }
 
 // Lets the renderers' histories (taa=history) begin anew after a jump in time or to another path.
@@ -152,8 +149,7 @@ bool dip_loop_draw_panes(DipPreview *preview, DipError *err) {
     const bool changed = preview->state.scene_changes != preview->drawn_changes || preview->resized;
     preview->settling = changed ? DIP_FRAMES_BEFORE : preview->settling - (preview->settling > 0);
     number_picture(preview);
-    dip_scene_words(session->options, session->shows_gallery ? preview->state.look : 0,
-                    preview->state.scene_words);
+    dip_scene_words(session->options, preview->state.look, preview->state.scene_words);
     preview->state.pane_width = preview->frame.panes[0].width;
     preview->state.pane_height = preview->frame.panes[0].height;
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
@@ -206,7 +202,7 @@ static bool join_panes(const DipFrame panes[DIP_PANE_COUNT], DipCanvas *joined, 
     }
     dip_canvas_fill(joined, (DipRect){0, 0, width, current->height}, dip_style_background);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipPixels pane = dip_view_pixels(&panes[p]);
+        const DipPixels pane = dip_frame_pixels(&panes[p]);
         const int x = p == DIP_PANE_CURRENT ? 0 : right;
         dip_canvas_copy(joined, (DipRect){x, 0, pane.width, pane.height}, &pane);
     }
@@ -236,7 +232,7 @@ static bool save_screenshot(DipPreview *preview, char *file, size_t size_bytes, 
     dip_picture_texts_make(&texts, preview->def.session, &preview->drawn.pose,
                            preview->drawn.play_ns, preview->state.manual);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        dip_picture_texts_add_pane(&texts, p, &preview->drawn_quality[p], &preview->frame.panes[p]);
+        dip_picture_texts_add_pane(&texts, p, &preview->drawn.quality[p], &preview->frame.panes[p]);
     }
     const bool written = dip_png_write_with_texts(file, &picture, texts.items, texts.count, err);
     dip_canvas_free(&joined);
@@ -283,12 +279,9 @@ static bool draw_view(DipPreview *preview, DipError *err) {
 
 static bool present(DipPreview *preview, DipError *err) {
     const DipDisplay *display = &preview->def.display;
-    if (preview->exposed) {
-        dip_view_damage_all(preview->view);
-        preview->exposed = false;
-    }
     const DipPixels picture = dip_view_picture(preview->view);
-    const DipDamage damage = dip_view_take_damage(preview->view);
+    const DipDamage damage = dip_view_take_damage(preview->view, preview->exposed);
+    preview->exposed = false;
     if (display->set_text) {
         const DipTextScreen *screen = &preview->text.screen;
         display->set_text(display->context, screen->cells, screen->columns, screen->rows);

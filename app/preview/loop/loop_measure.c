@@ -10,11 +10,6 @@ static const double price_budget_ms = 8.0;
 // A truth (converged picture) with fewer samples per pixel is too noisy for prices.
 static const int least_truth_samples = 32;
 
-void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading) {
-    dip_maps_set_errors(&preview->tools->maps, reading,
-                        preview->errors ? dip_error_thread_pictures(preview->errors) : NULL);
-}
-
 // Returns whether rough prices are measured: no report is used instead, the dock is open or another
 // program has subscribed to prices, and nothing moves.
 static bool wants_prices(const DipPreview *preview) {
@@ -70,7 +65,7 @@ static bool wants_errors(const DipPreview *preview) {
 
 static void close_errors(DipPreview *preview) {
     preview->state.tools.open = preview->state.wants_errors = false;
-    dip_maps_choose(&preview->state.tools, DIP_MAP_NONE);
+    dip_tool_state_choose_map(&preview->state.tools, DIP_MAP_NONE);
     preview->resized = true;
 }
 
@@ -130,7 +125,8 @@ bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns) {
     }
     DipErrorReading reading;
     const bool news = dip_error_thread_read(preview->errors, &reading);
-    dip_loop_show_errors(preview, &reading);
+    dip_maps_set_errors(&preview->tools->maps, &reading,
+                        dip_error_thread_pictures(preview->errors));
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         preview->figures.shown[p].errors = reading;
     }
@@ -176,6 +172,6 @@ bool dip_loop_measure_prices(DipPreview *preview) {
         .pixels_per_degree = dip_prices_viewing(preview->prices),
     };
     const DipLiveTruth truth = truth_for_prices(preview);
-    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn_quality, &truth,
+    return dip_live_prices_step(preview->live_prices, &picture, preview->drawn.quality, &truth,
                                 price_budget_ms);
 }

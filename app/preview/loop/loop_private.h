@@ -48,7 +48,6 @@ struct DipPreview {
     DipPreviewChoice choice; // The settings that can be chosen with the present prices (choice.h).
     DipLivePrices *live_prices;
     DipTools *tools;
-    DipPathEditor *editor;
     DipTextView text; // Used if the display shows characters.
     DipFigures figures;
     DipPrefetch prefetch;
@@ -77,9 +76,7 @@ struct DipPreview {
     DipPose pose;             // Pose of the next frame.
     DipSessionFrame frame;    // The frame that was drawn last.
     uint64_t frame_index;
-    unsigned drawn_changes;                   // Value of state.scene_changes at the last frame.
-    DipQuality drawn_quality[DIP_PANE_COUNT]; // Settings of the renderers.
-    int drawn_look;
+    unsigned drawn_changes;       // Value of state.scene_changes at the last frame.
     const DipCamPath *drawn_path; // The path that played in the last frame.
     int settling;                 // Frames to draw at rest until the panes' histories are complete.
     Drawn drawn;
@@ -122,9 +119,6 @@ void dip_loop_follow_reload(DipPreview *preview, int64_t now_ns);
 
 // --- loop_measure.c ------------------------------------------------------------------------------
 
-// Gives the maps (app/preview/tools/maps.h) a reading of the error thread, and the newest pictures
-// of the error thread.
-void dip_loop_show_errors(DipPreview *preview, const DipErrorReading *reading);
 // Measures errors while the window, another program or the prices need them, and camera and scene
 // rest. Returns whether the errors or their status are new.
 bool dip_loop_measure_errors(DipPreview *preview, int64_t now_ns);

@@ -14,23 +14,16 @@ void dip_loop_enter_scene(DipPreview *preview) {
     }
 }
 
-// Gives the free camera the speed and the kind of dragging that suit the scene.
-static void begin_flight(DipPreview *preview) {
-    preview->def.flying_speed_m_per_s = dip_flying_speed(preview->def.session);
-    dip_pilot_enter(&preview->state.flight, preview->def.session);
-}
-
 void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     DipSession *session = preview->def.session;
     DipPreviewState *state = &preview->state;
     const int step = state->scene_step;
     DipError failure;
     state->scene_step = 0;
+    if (session->gallery) {
+        dip_gallery_set_look(session->gallery, state->look);
+    }
     if (step == 0) {
-        if (session->gallery && state->look != preview->drawn_look) {
-            dip_gallery_set_look(session->gallery, state->look);
-            preview->drawn_look = state->look;
-        }
         return;
     }
     dip_live_prices_leave_scene(preview->live_prices);
@@ -42,10 +35,10 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
     state->shows_gallery = session->shows_gallery;
     preview->judged_path = NULL;
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
-    state->look = preview->drawn_look = 0;
+    state->look = 0;
     state->play_ns = 0;
     state->manual = false;
-    begin_flight(preview);
+    dip_pilot_enter(&state->flight, session);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         dip_figures_forget(&preview->figures, p);
     }
@@ -56,7 +49,7 @@ void dip_loop_follow_scene(DipPreview *preview, int64_t now_ns) {
 static void follow_settings_of(const DipSession *session, DipPreviewState *state) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         const DipQuality begun = dip_painter_quality(session->renderers[p]);
-        if (memcmp(&begun, &state->begun_quality[p], sizeof begun) != 0) {
+        if (!dip_quality_equal(&begun, &state->begun_quality[p])) {
             state->quality[p] = begun;
         }
         state->begun_quality[p] = begun;
@@ -114,18 +107,16 @@ static void use_new_session(DipPreview *preview, bool dropped) {
     preview->judged_path = NULL; // The new path may have the address of the old one.
     dip_error_thread_destroy(&preview->errors);
     preview->no_truth = false;
-    dip_loop_show_errors(preview, &nothing); // The thread owned the error pictures.
+    dip_maps_set_errors(&preview->tools->maps, &nothing, NULL); // The thread owned the pictures.
     dip_prefetch_end(&preview->prefetch);
     preview->prefetch = (DipPrefetch){.running = false};
     dip_live_prices_leave_scene(preview->live_prices);
     hand_over(preview, dropped);
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        preview->drawn_quality[p] = dip_painter_quality(session->renderers[p]);
         dip_figures_forget(&preview->figures, p);
     }
     dip_loop_enter_scene(preview);
-    preview->drawn_look = preview->state.look;
-    begin_flight(preview);
+    dip_pilot_enter(&preview->state.flight, session);
     preview->tried_width = 0; // The new renderers do not have the panes' size yet.
     ++preview->picture_number;
 }

@@ -4,11 +4,12 @@
 
 #include "app/cost/plan.h"
 #include "app/cli/log.h"
+#include "app/files/put.h"
+#include "app/files/whole_file.h"
 #include "app/preview/loop/watch.h"
 #include "renderer/base/clock.h"
 
 #include <pthread.h>
-#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -238,11 +239,6 @@ static void *open_session(void *context) {
     return NULL;
 }
 
-static const char *base_name(const char *file) {
-    const char *slash = strrchr(file, '/');
-    return slash ? slash + 1 : file;
-}
-
 static bool tell(DipReloadNews *news, DipReloadKind kind, const char *what, const char *name) {
     news->kind = kind;
     snprintf(news->notice, sizeof news->notice, "%s%.100s", what, name);
@@ -332,14 +328,6 @@ static bool lacks_changed_file(const Opening *opening) {
     return false;
 }
 
-static void add(DipReloadNews *news, const char *format, ...) {
-    const size_t length = strlen(news->notice);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(news->notice + length, sizeof news->notice - length, format, arguments);
-    va_end(arguments);
-}
-
 // Adds to the notice how many pictures are missing, and the first of the other warnings.
 static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     const DipError *first = NULL;
@@ -353,12 +341,14 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
     const int others = (int)faults->count - pictures;
     news->warns = faults->count > 0;
     if (pictures > 0) {
-        add(news, ", %d picture%s missing", pictures, pictures > 1 ? "s" : "");
+        dip_put_append(news->notice, sizeof news->notice, ", %d picture%s missing", pictures,
+                       pictures > 1 ? "s" : "");
     }
     if (others > 1) {
-        add(news, ", with %d warnings: %s", others, first->message);
+        dip_put_append(news->notice, sizeof news->notice, ", with %d warnings: %s", others,
+                       first->message);
     } else if (others > 0) {
-        add(news, ", with a warning: %s", first->message);
+        dip_put_append(news->notice, sizeof news->notice, ", with a warning: %s", first->message);
     }
 }
 
@@ -367,9 +357,11 @@ static void tell_warnings(DipReloadNews *news, const DipErrorList *faults) {
 static void tell_passed(const DipReload *reload, DipReloadNews *news) {
     const char *passed = reload->opening.file ? reload->passed : NULL;
     if (passed && reload->passed_failed) {
-        add(news, "; %.60s could not be opened", base_name(passed));
+        dip_put_append(news->notice, sizeof news->notice, "; %.60s could not be opened",
+                       dip_base_name(passed));
     } else if (passed && (is_path(passed) || !is_path(reload->opening.file))) {
-        add(news, " in place of %.60s", base_name(passed));
+        dip_put_append(news->notice, sizeof news->notice, " in place of %.60s",
+                       dip_base_name(passed));
     }
 }
 
@@ -388,18 +380,16 @@ static bool finish(DipReload *reload, DipReloadNews *news) {
                                : "Reloaded ",
              opening->name[0] ? opening->name : "the scene");
         tell_passed(reload, news);
-    }
-    if (good && !opening->animated) {
-        tell_warnings(news, &opening->faults);
+        if (!opening->animated) {
+            tell_warnings(news, &opening->faults);
+        }
+    } else {
+        tell_fault(news, &opening->faults);
+        watch_session(reload, &opening->faults);
+        drop_opening(opening);
     }
     reload->passed = opening->file && reload->drop_count > 0 ? opening->file : NULL;
     reload->passed_failed = !good;
-    if (good) {
-        return true;
-    }
-    tell_fault(news, &opening->faults);
-    watch_session(reload, &opening->faults);
-    drop_opening(opening);
     return true;
 }
 
@@ -432,7 +422,7 @@ static bool open_costs(DipReload *reload, DipPrices *prices, const char *file,
     }
     dip_costs_free(&reload->costs);
     news->costs = reload->costs = costs;
-    return tell(news, DIP_RELOAD_COSTS, "Opened ", base_name(file));
+    return tell(news, DIP_RELOAD_COSTS, "Opened ", dip_base_name(file));
 }
 
 // --- turns ---------------------------------------------------------------------------------------
@@ -442,7 +432,7 @@ static bool open_next_drop(DipReload *reload, DipPrices *prices, DipReloadNews *
     --reload->drop_count;
     memmove(reload->drops, reload->drops + 1, (size_t)reload->drop_count * sizeof file);
     return ends_with(file, ".json") ? open_costs(reload, prices, file, news)
-                                    : begin(reload, file, base_name(file), news);
+                                    : begin(reload, file, dip_base_name(file), news);
 }
 
 bool dip_reload_poll(DipReload *reload, DipPrices *prices, int64_t now_ns, DipReloadNews *news) {

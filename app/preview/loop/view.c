@@ -5,6 +5,7 @@
 #include "app/ui/style.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct DipView {
     DipFont *font; // NULL if the texts are character cells.
@@ -45,12 +46,8 @@ void dip_view_destroy(DipView **view_pointer) {
     free(view);
 }
 
-DipPixels dip_view_pixels(const DipFrame *frame) {
-    return (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
-}
-
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame) {
-    view->frames[pane] = dip_view_pixels(frame);
+    view->frames[pane] = dip_frame_pixels(frame);
     view->versions[pane] = ++view->frame_count;
 }
 
@@ -59,16 +56,14 @@ uint64_t dip_view_version(const DipView *view, int pane) {
 }
 
 DipLayout dip_view_layout(const DipViewInput *input) {
-    const DipToolState *tools = &input->state->tools;
     if (input->text) { // The dock is drawn as characters, so only the panes have rectangles.
         DipLayout layout = {
             .width = input->width, .height = input->height, .scale = 1.0, .side = DIP_DOCK_DRAWER};
-        dip_text_view_panes(input->text, input->state, input->width, input->height, layout.panes);
+        dip_text_view_panes(input->text, input->window.state, input->width, input->height,
+                            layout.panes);
         return layout;
     }
-    return dip_layout_make(input->width, input->height,
-                           dip_layout_scale(input->scale, tools, input->height), tools->open,
-                           tools->bare);
+    return dip_layout_make(input->width, input->height, input->scale, &input->window.state->tools);
 }
 
 // Runs one pass (ui.h) over all controls: draws them into `list`, hands them `event`, or only lays
@@ -76,19 +71,12 @@ DipLayout dip_view_layout(const DipViewInput *input) {
 static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *list,
                       const DipEvent *event) {
     const DipLayout layout = dip_view_layout(input);
-    DipWindow window = {
-        .state = input->state,
-        .layout = &layout,
-        .frames = {view->frames[0], view->frames[1]},
-        .versions = {view->versions[0], view->versions[1]},
-        .still = input->still,
-        .now_ns = input->now_ns,
-        .figures = input->figures,
-        .prices = input->prices,
-        .tools = input->tools,
-    };
-    window.truth = dip_maps_truth(&input->tools->maps, &window.truth_version);
-    const DipUiPass pass = {view->font, layout.scale, input->now_ns, list, event};
+    DipWindow window = input->window;
+    window.layout = &layout;
+    memcpy(window.frames, view->frames, sizeof window.frames);
+    memcpy(window.versions, view->versions, sizeof window.versions);
+    window.truth = dip_maps_truth(&window.tools->maps, &window.truth_version);
+    const DipUiPass pass = {view->font, layout.scale, window.now_ns, list, event};
     dip_ui_begin(view->ui, &pass);
     dip_window_declare(view->ui, &window);
     return dip_ui_end(view->ui);
@@ -96,8 +84,8 @@ static bool pass_over(DipView *view, const DipViewInput *input, DipDrawList *lis
 
 // Hands an event to the settings that are drawn as characters. A click on a pane chooses the pane.
 static bool handle_in_text(const DipViewInput *input, const DipEvent *event) {
-    DipPreviewState *state = input->state;
-    if (dip_text_view_event(input->text, state, event, input->now_ns)) {
+    DipPreviewState *state = input->window.state;
+    if (dip_text_view_event(input->text, state, event, input->window.now_ns)) {
         return true;
     }
     const DipLayout layout = dip_view_layout(input);
@@ -126,8 +114,8 @@ static bool draw_text(DipView *view, const DipViewInput *input, DipError *err) {
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         dip_draw_list_picture(view->list, layout.panes[p], &view->frames[p], view->versions[p]);
     }
-    return dip_text_view_draw(input->text, input->state, input->width, input->height,
-                              input->figures, err);
+    return dip_text_view_draw(input->text, input->window.state, input->width, input->height,
+                              input->window.figures, err);
 }
 
 bool dip_view_draw(DipView *view, const DipViewInput *input, DipError *err) {
@@ -158,12 +146,11 @@ DipPixels dip_view_picture(const DipView *view) {
     return dip_canvas_pixels(&view->canvas);
 }
 
-DipDamage dip_view_take_damage(DipView *view) {
+DipDamage dip_view_take_damage(DipView *view, bool all) {
+    if (all) {
+        dip_damage_add(&view->damage, (DipRect){0, 0, view->canvas.width, view->canvas.height});
+    }
     const DipDamage damage = view->damage;
     view->damage.count = 0;
     return damage;
-}
-
-void dip_view_damage_all(DipView *view) {
-    dip_damage_add(&view->damage, (DipRect){0, 0, view->canvas.width, view->canvas.height});
 }

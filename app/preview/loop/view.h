@@ -15,9 +15,6 @@ typedef struct DipView DipView;
 DipView *dip_view_create(DipTextView *text, DipError *err);
 void dip_view_destroy(DipView **view);
 
-// Returns the pixels of a frame, which the frame still owns.
-DipPixels dip_view_pixels(const DipFrame *frame);
-
 // Sets a pane's frame. The frame's pixels are borrowed until the pane's next frame is set.
 void dip_view_set_frame(DipView *view, int pane, const DipFrame *frame);
 
@@ -28,20 +25,15 @@ uint64_t dip_view_version(const DipView *view, int pane);
 typedef struct DipViewInput {
     int width; // Size of the window in pixels.
     int height;
-    double scale; // The display's scale (display.h).
-    int64_t now_ns;
-    DipPreviewState *state;
-    const DipPaneFigures *figures; // Array with the figures of each pane.
-    const DipPrices *prices;
-    DipTools *tools;
+    double scale;      // The display's scale (display.h).
     DipTextView *text; // Draws the texts as character cells; NULL if the picture holds them.
-    bool still;        // Camera and scene stand still.
+    DipWindow window;  // Without layout, frames, versions and truth, which the view fills in.
 } DipViewInput;
 
 // Returns where the panes and the dock lie.
 DipLayout dip_view_layout(const DipViewInput *input);
 
-// Hands an event to the window's controls, which change input->state. Returns whether one of them
+// Hands an event to the window's controls, which change the state. Returns whether one of them
 // took the event.
 bool dip_view_handle(DipView *view, const DipViewInput *input, const DipEvent *event);
 
@@ -55,10 +47,8 @@ DipUi *dip_view_ui(DipView *view);
 // Returns the picture, which is valid until the next dip_view_draw.
 DipPixels dip_view_picture(const DipView *view);
 
-// Returns the rectangles that have changed since the previous call, and forgets them.
-DipDamage dip_view_take_damage(DipView *view);
-
-// Marks the whole picture as changed.
-void dip_view_damage_all(DipView *view);
+// Returns the rectangles that have changed since the previous call, or with `all` one that covers
+// the whole picture, and forgets them.
+DipDamage dip_view_take_damage(DipView *view, bool all);
 
 #endif

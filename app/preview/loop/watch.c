@@ -2,6 +2,7 @@
 // inodes.
 #include "app/preview/loop/watch.h"
 
+#include "app/files/whole_file.h"
 #include "renderer/base/assert.h"
 #include "renderer/base/hash.h"
 
@@ -118,18 +119,13 @@ static void add_folder(Stamp *stamp, const char *folder, int depth) {
     closedir(listing);
 }
 
-static const char *base_name(const char *file) {
-    const char *slash = strrchr(file, '/');
-    return slash ? slash + 1 : file;
-}
-
 static void take_stamp(const Entry *entry, Stamp *stamp) {
     struct stat status;
     *stamp = (Stamp){.count = 0};
     if (entry->folder) {
         add_folder(stamp, entry->file, 0);
     } else if (stat(entry->file, &status) == 0) {
-        add_file(stamp, base_name(entry->file), &status);
+        add_file(stamp, dip_base_name(entry->file), &status);
     }
 }
 
@@ -182,7 +178,7 @@ void dip_watch_file(DipWatch *watch, const char *file) {
 
 void dip_watch_folder(DipWatch *watch, const char *file) {
     // Length of the folder's path with its slash; 0 without a folder.
-    const size_t length = (size_t)(base_name(file) - file);
+    const size_t length = (size_t)(dip_base_name(file) - file);
     add_entry(watch, length == 0 ? strdup(".") : strndup(file, length > 1 ? length - 1 : 1), true);
 }
 

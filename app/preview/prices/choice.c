@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // The share of the possible gain (choice.h) that each preset before DIP_PRESET_BEST must reach, in
 // the order of DipPreset.
@@ -45,7 +44,7 @@ static void list_front(DipPreviewChoice *choice) {
 static void find_base(DipPreviewChoice *choice, const DipQuality *base) {
     choice->base = -1;
     for (int i = 0; i < choice->candidates.count; ++i) {
-        if (memcmp(&choice->candidates.list[i].quality, base, sizeof *base) == 0) {
+        if (dip_quality_equal(&choice->candidates.list[i].quality, base)) {
             choice->base = i;
         }
     }
@@ -76,7 +75,7 @@ bool dip_preview_choose(DipPreviewChoice *choice, const DipPrices *prices, const
                         double budget_ms) {
     const unsigned changes = prices ? dip_prices_changes(prices) : 0;
     const bool same_list = choice->is_made && choice->price_changes == changes &&
-                           (!choice->of_like || memcmp(&choice->like, like, sizeof *like) == 0);
+                           (!choice->of_like || dip_quality_equal(&choice->like, like));
     if (same_list && fabs(choice->advice.budget_ms - budget_ms) < 1e-9) {
         return false;
     }

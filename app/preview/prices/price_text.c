@@ -3,7 +3,6 @@
 
 #include "app/report/words.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,9 +1,9 @@
 // Holds the report that was read and the report that is measured here, and says which one is used.
 #include "app/preview/prices/prices.h"
 
+#include "app/files/put.h"
 #include "app/measure/metrics/flip.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -180,53 +180,42 @@ const char *dip_prices_progress(const DipPrices *prices) {
 
 // --- the source ----------------------------------------------------------------------------------
 
-typedef struct Text {
-    char *at;
-    size_t size_bytes;
-} Text;
-
-__attribute__((format(printf, 2, 3))) static void say(Text *text, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vsnprintf(text->at, text->size_bytes, format, arguments);
-    va_end(arguments);
-    const size_t left = text->size_bytes > 0 ? text->size_bytes - 1 : 0;
-    const size_t used = length > 0 && (size_t)length < left ? (size_t)length : left;
-    text->at += used;
-    text->size_bytes -= used;
-}
-
 static bool differs(const char *now, const char *then) {
     return now && strcmp(now, then) != 0;
 }
 
 // Says what differs between the report and the panes. Returns whether anything does.
-static bool say_differences(const DipPrices *prices, int width, int height, Text *text) {
+static bool say_differences(const DipPrices *prices, int width, int height, char *text,
+                            size_t size_bytes) {
     const DipCostReport *report = dip_price_view_report(prices->read);
     const DipPriceConditions *now = &prices->conditions;
     bool stale = false;
     if (differs(now->scene, report->scene)) {
-        say(text, " The panes show %s.", now->scene);
+        dip_put_append(text, size_bytes, " The panes show %s.", now->scene);
         stale = true;
     }
     if (width != report->width || height != report->height) {
-        say(text, " The panes are %dx%d.", width, height);
+        dip_put_append(text, size_bytes, " The panes are %dx%d.", width, height);
         stale = true;
     }
     if (dip_prices_viewing(prices) != report->options.pixels_per_degree) {
-        say(text, " FLIP of the panes is for %.1f pixels per degree, that of the report for %.1f.",
+        dip_put_append(
+            text, size_bytes,
+            " FLIP of the panes is for %.1f pixels per degree, that of the report for %.1f.",
             dip_prices_viewing(prices), report->options.pixels_per_degree);
         stale = true;
     }
     if (now->threads != 0 && now->threads != report->threads) {
-        say(text, " The panes have %d thread%s.", now->threads, now->threads == 1 ? "" : "s");
+        dip_put_append(text, size_bytes, " The panes have %d thread%s.", now->threads,
+                       now->threads == 1 ? "" : "s");
         stale = true;
     }
     if (differs(now->processor, report->processor)) {
-        say(text, " The report is from another machine.");
+        dip_put_append(text, size_bytes, " The report is from another machine.");
         stale = true;
     } else if (differs(now->isa, report->isa)) {
-        say(text, " The report is for %s, the panes use %s.", report->isa, now->isa);
+        dip_put_append(text, size_bytes, " The report is for %s, the panes use %s.", report->isa,
+                       now->isa);
         stale = true;
     }
     return stale;
@@ -245,11 +234,11 @@ static bool has_errors(const DipCostReport *report) {
     return viewpoints > 0;
 }
 
-bool dip_prices_source(const DipPrices *prices, int width, int height, char *out,
+bool dip_prices_source(const DipPrices *prices, int width, int height, char *text,
                        size_t size_bytes) {
-    Text text = {out, size_bytes};
     if (dip_prices_are_rough(prices)) {
-        say(&text, "%s",
+        snprintf(
+            text, size_bytes, "%s",
             prices->measured.row_count == 0
                 ? "Prices: not measured yet. They are measured while the camera rests."
             : dip_prices_are_doubtful(prices)
@@ -258,19 +247,19 @@ bool dip_prices_source(const DipPrices *prices, int width, int height, char *out
         return false;
     }
     const DipCostReport *report = dip_price_view_report(prices->read);
-    say(&text, "Prices: report of %.80s, path %s, %dx%d, %d thread%s.",
-        differs(prices->conditions.scene, report->scene) ? report->scene : "this scene",
-        report->paths[0], report->width, report->height, report->threads,
-        report->threads == 1 ? "" : "s");
-    const bool stale = say_differences(prices, width, height, &text);
+    snprintf(text, size_bytes, "Prices: report of %.80s, path %s, %dx%d, %d thread%s.",
+             differs(prices->conditions.scene, report->scene) ? report->scene : "this scene",
+             report->paths[0], report->width, report->height, report->threads,
+             report->threads == 1 ? "" : "s");
+    const bool stale = say_differences(prices, width, height, text, size_bytes);
     if (dip_price_is_doubtful(prices->read)) {
-        say(&text, " The machine was too busy, so the times are wrong.");
+        dip_put_append(text, size_bytes, " The machine was too busy, so the times are wrong.");
     }
     if (report->rounds == 0) {
-        say(&text, " The report has no times.");
+        dip_put_append(text, size_bytes, " The report has no times.");
     }
     if (!has_errors(report)) {
-        say(&text, " The report has no errors.");
+        dip_put_append(text, size_bytes, " The report has no errors.");
     }
     return stale;
 }

@@ -3,8 +3,6 @@
 #include "app/preview/state/pilot.h"
 #include "app/preview/state/state_private.h"
 
-#include <stdio.h>
-
 static const int64_t ns_per_ms = 1000000;
 
 // --- time ----------------------------------------------------------------------------------------
@@ -15,19 +13,11 @@ static void pause_or_play(const DipAct *act) {
     dip_preview_notice(state, act->now_ns, state->paused ? "Paused" : "Playing");
 }
 
-static void step_by(const DipAct *act, int64_t by_ns) {
+static void step(const DipAct *act) {
     DipPreviewState *state = act->state;
     state->paused = true;
-    dip_preview_seek(state, state->play_ns + by_ns);
+    dip_preview_seek(state, state->play_ns + act->argument * state->step_ns);
     dip_preview_notice(state, act->now_ns, "Paused");
-}
-
-static void step_on(const DipAct *act) {
-    step_by(act, act->state->step_ns);
-}
-
-static void step_back(const DipAct *act) {
-    step_by(act, -act->state->step_ns);
 }
 
 static void seek(const DipAct *act) {
@@ -45,8 +35,7 @@ static bool has_path(const DipPreviewState *state, int category) {
 static void play_path(DipPreviewState *state, int category, int64_t now_ns) {
     if (category < 0 || category >= DIP_CAMTRACK_CATEGORIES || !has_path(state, category)) {
         dip_preview_notice(state, now_ns, "%s has no path: the ini names no CAMPATH_%s",
-                           dip_preview_category_title(category),
-                           dip_preview_category_name(category));
+                           dip_preview_category_title(category), dip_session_category(category));
         return;
     }
     dip_camtrack_switch(state->track, category, state->play_ns);
@@ -184,24 +173,12 @@ static void next_comparison(const DipAct *act) {
 
 static void next_map(const DipAct *act) {
     DipToolState *tools = &act->state->tools;
-    tools->map = (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT);
-    if (tools->map != DIP_MAP_NONE) {
-        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE; // A map needs both panes side by side.
-    }
+    dip_tool_state_choose_map(tools,
+                              (DipMap)next_of(act, DIP_TAB_MAPS, (int)tools->map, DIP_MAP_COUNT));
 }
 
-// Doubles or halves the brightness if a map is chosen. Otherwise changes the gain or the divider.
 static void adjust(const DipAct *act) {
-    enum { MOST_BRIGHTNESS = 1 << (DIP_BRIGHTNESS_COUNT - 1) };
-    DipToolState *tools = &act->state->tools;
-    if (tools->map != DIP_MAP_NONE) {
-        const double brightness = tools->brightness * (act->reverse ? 0.5 : 2.0);
-        tools->brightness = brightness < 1.0               ? 1.0
-                            : brightness > MOST_BRIGHTNESS ? MOST_BRIGHTNESS
-                                                           : brightness;
-    } else {
-        dip_tool_state_adjust(tools, act->reverse ? -1 : 1);
-    }
+    dip_tool_state_adjust(&act->state->tools, act->reverse ? -1 : 1);
 }
 
 static void blink(const DipAct *act) {
@@ -246,8 +223,7 @@ static const struct {
     [DIP_ACTION_NEXT_PANE] = {.carry_out = dip_state_choose_pane},
     [DIP_ACTION_APPLY] = {.carry_out = dip_state_apply},
     [DIP_ACTION_PAUSE] = {.carry_out = pause_or_play},
-    [DIP_ACTION_STEP] = {.carry_out = step_on},
-    [DIP_ACTION_STEP_BACK] = {.carry_out = step_back},
+    [DIP_ACTION_STEP] = {.carry_out = step},
     [DIP_ACTION_NEXT_PATH] = {.carry_out = next_path},
     [DIP_ACTION_PATH] = {.carry_out = choose_path},
     [DIP_ACTION_ANIMATION] = {.carry_out = choose_animation},

@@ -52,8 +52,8 @@ const DipKeyRow dip_key_rows[] = {
     HELP(DOCK, "Tab  Arrows", "Controls of the panel"),
     HELP(DOCK, "Ctrl+=  Ctrl+-", "Size of the panel"),
     KEY(DIP_KEYCODE_SPACE, 0, PAUSE, 0, "Space", "Pause or play"),
-    HELD('.', STEP, 0, false, ".  ,", "Step one frame"),
-    HELD(',', STEP_BACK, 0, false, NULL, NULL),
+    HELD('.', STEP, 1, false, ".  ,", "Step one frame"),
+    HELD(',', STEP, -1, false, NULL, NULL),
     KEY('p', DIP_KEYCODE_RIGHT, NEXT_PATH, 0, "P", "Next path"),
     {DIP_KEYCODE_LEFT, 0, DIP_ACTION_NEXT_PATH, .reverse = true},
     PATH(0),
@@ -111,8 +111,6 @@ const DipKeyRow dip_key_rows[] = {
 
 _Static_assert(DIP_ARRAY_COUNT(dip_key_rows) <= DIP_MAX_KEY_ROWS, "room for all keys");
 const int dip_key_row_count = (int)DIP_ARRAY_COUNT(dip_key_rows);
-
-static const unsigned command_modifiers = DIP_MODIFIER_CTRL | DIP_MODIFIER_ALT | DIP_MODIFIER_SUPER;
 
 static bool stands_for(const DipKeyRow *row, DipKeycode key) {
     return row->key != DIP_KEYCODE_NONE && (row->key == (int)key || row->other == (int)key);
@@ -197,7 +195,7 @@ bool dip_keys_press(DipPreviewState *state, const DipEvent *event, int64_t now_n
     if (event->key == DIP_KEYCODE_NONE) {
         return false;
     }
-    if (event->modifiers & command_modifiers) {
+    if (event->modifiers & DIP_MODIFIER_COMMAND) {
         return press_with_modifier(state, event, now_ns);
     }
     if (type_words(state, event)) {
@@ -232,7 +230,7 @@ static double direction(const DipHeldKeys *held, char plus, char minus) {
 }
 
 DipCameraKeys dip_keys_camera(const DipHeldKeys *held) {
-    if (held->modifiers & command_modifiers) {
+    if (held->modifiers & DIP_MODIFIER_COMMAND) {
         return (DipCameraKeys){0};
     }
     return (DipCameraKeys){

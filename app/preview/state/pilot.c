@@ -29,7 +29,7 @@ static bool should_orbit(const DipSession *session) {
     return session->options && session->options->model_count > 0 && !session->shows_gallery;
 }
 
-double dip_flying_speed(const DipSession *session) {
+static double speed_for(const DipSession *session) {
     if (!should_orbit(session) || !session->scene) {
         return courtyard_speed_m_per_s;
     }
@@ -52,9 +52,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
         }
     }
     if (should_orbit(session)) {
-        for (int i = 0; i < 3; ++i) {
-            centre_world[i] = middle[i];
-        }
+        memcpy(centre_world, middle, sizeof middle);
     } else {
         dip_camera_point_ahead(pose, middle, least_distance_m, centre_world);
     }
@@ -62,6 +60,7 @@ void dip_orbit_centre(const DipSession *session, const DipPose *pose, double cen
 
 void dip_pilot_enter(DipFlight *flight, const DipSession *session) {
     flight->orbits = should_orbit(session);
+    flight->base_speed_m_per_s = speed_for(session);
     flight->speed_steps = 0;
     flight->knows_centre = false;
 }
@@ -231,7 +230,6 @@ static void keep_in_world(DipPose *pose) {
 bool dip_pilot_turn(DipPreviewState *state, const DipPilotTurn *turn, DipPose *pose) {
     DipFlight *flight = &state->flight;
     bool moved = false;
-    flight->base_speed_m_per_s = turn->speed_m_per_s;
     if (state->manual && (flight->reset || !has_pose(pose))) {
         moved |= dip_camtrack_pose(state->track, state->play_ns, pose);
     }

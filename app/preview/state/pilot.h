@@ -24,19 +24,16 @@ void dip_pilot_make_free(DipPreviewState *state, int64_t now_ns);
 // flight->speed_steps double the speed.
 double dip_flight_speed(const DipFlight *flight);
 
-// Returns a speed in metres per second that suits the session's scene. If the panes show models
-// that the user gave, a camera of this speed crosses the diagonal of the scene's bounding box in
-// four seconds, whatever the models' unit of length is. Otherwise the speed is 3.
-double dip_flying_speed(const DipSession *session);
-
 // Writes the point that the camera orbits. If the panes show models that the user gave, this is the
 // middle of the scene's bounding box. In other scenes it is the point on the line of sight that is
 // nearest to the middle of the scene, but at least 1 m ahead, so it shows in the middle of the
 // picture.
 void dip_orbit_centre(const DipSession *session, const DipPose *pose, double centre_world[3]);
 
-// Resets the free camera's speed, and decides by the session's scene whether dragging orbits. Call
-// it for a new session and for another scene.
+// Gives the free camera a speed that suits the session's scene, and decides whether dragging
+// orbits. If the panes show models that the user gave, the camera crosses the diagonal of the
+// scene's bounding box in four seconds, whatever the models' unit of length is. Otherwise it flies
+// 3 metres per second. Call the function for a new session and for another scene.
 void dip_pilot_enter(DipFlight *flight, const DipSession *session);
 
 // What the loop gives to dip_pilot_turn.
@@ -44,7 +41,6 @@ typedef struct DipPilotTurn {
     const DipSession *session;
     DipCameraKeys keys;                // What the held keys ask for.
     const DipControllers *controllers; // NULL if there are none.
-    double speed_m_per_s;              // Speed of the free camera at 0 steps (DipFlight).
     int64_t elapsed_ns;
 } DipPilotTurn;
 

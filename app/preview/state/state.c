@@ -23,7 +23,7 @@ DipPreviewState dip_preview_state_make(const DipQuality quality[DIP_PANE_COUNT],
                                  .y = -1,
                                  .divider = 0.5,
                                  .gain = 8,
-                                 .brightness = 1.0};
+                                 .brightness = 1};
     state.budget_ms = state.refresh_ms = 1000.0 / 60.0;
     return state;
 }
@@ -64,15 +64,6 @@ void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns) {
 
 // --- camera paths --------------------------------------------------------------------------------
 
-const char *dip_preview_category_name(int category) {
-    static const char *const names[] = {
-#define PATH_NAME(NAME, fallback, text) #NAME,
-        DIP_CONFIG_LIST(DIP_CONFIG_NONE, PATH_NAME, DIP_CONFIG_NONE)
-#undef PATH_NAME
-    };
-    return category >= 0 && category < DIP_CATEGORY_COUNT ? names[category] : "?";
-}
-
 const char *dip_preview_category_title(int category) {
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         if (category == dip_preview_category_of((DipSetting)s)) {
@@ -81,13 +72,7 @@ const char *dip_preview_category_title(int category) {
     }
     return category == DIP_CATEGORY_DEFAULT ? "Default"
            : category == DIP_CATEGORY_WATER ? "Water"
-                                            : dip_preview_category_name(category);
-}
-
-const char *dip_preview_path_name(const DipPreviewState *state, int category) {
-    const bool is_camera = category >= DIP_CATEGORY_COUNT && category < DIP_CAMTRACK_CATEGORIES;
-    const char *name = is_camera ? state->track->categories[category].name : NULL;
-    return name ? name : dip_preview_category_name(category);
+                                            : dip_session_category(category);
 }
 
 const char *dip_preview_path_title(const DipPreviewState *state, int category) {
@@ -97,8 +82,7 @@ const char *dip_preview_path_title(const DipPreviewState *state, int category) {
 }
 
 const DipCamPath *dip_preview_playing_path(const DipPreviewState *state) {
-    const DipCamPath *path = state->track->categories[state->track->active].path;
-    return path ? path : state->track->categories[0].path;
+    return dip_camtrack_playing(state->track)->path;
 }
 
 bool dip_preview_path_stands(const DipPreviewState *state) {

@@ -24,8 +24,7 @@ typedef enum DipAction {
     DIP_ACTION_NEXT_PANE,
     DIP_ACTION_APPLY,
     DIP_ACTION_PAUSE,
-    DIP_ACTION_STEP,
-    DIP_ACTION_STEP_BACK,
+    DIP_ACTION_STEP, // Pauses, and moves the time by `argument` steps.
     DIP_ACTION_NEXT_PATH,
     DIP_ACTION_PATH,
     DIP_ACTION_ANIMATION,
@@ -82,7 +81,7 @@ typedef struct DipFlight {
                  // turns the camera on the spot, and the wheel changes its speed.
     bool reset;  // In the next turn, the camera gets its path's pose. The turn clears this.
     int speed_steps;           // Steps by which the user has changed the speed (pilot.h).
-    double base_speed_m_per_s; // Speed at 0 steps. Set by the loop in each turn.
+    double base_speed_m_per_s; // Speed at 0 steps; suits the scene (dip_pilot_enter).
     // What the mouse has done since the last turn of the loop. `drag_right` and `drag_up` are
     // fractions of a pane's height. `zoom_steps` counts the wheel's steps, positive away from the
     // user.
@@ -111,12 +110,12 @@ typedef struct DipPreviewState {
     DipCamTrack *track;                       // Borrowed.
     int64_t play_ns; // Time that the camera path and the scene follow, never below 0. A path begins
                      // at track->start_ns.
-    int64_t step_ns; // How far DIP_ACTION_STEP moves the time.
+    int64_t step_ns; // How far a step of DIP_ACTION_STEP moves the time.
     bool paused;
     bool stands;           // Neither the camera path nor the scene moves, so time does not run.
     bool scene_moves;      // Something in the scene moves. True for every scene of the gallery.
     bool lacks_shadows;    // Nothing in the scene casts a shadow that `shadows` could draw.
-    DipPathEditor *editor; // Borrowed; NULL if paths cannot be edited.
+    DipPathEditor *editor; // Owned by the loop; NULL if paths cannot be edited.
     DipFlight flight;      // How the user flies the free camera.
 
     bool manual;        // The user flies the camera. Time then runs only if the scene moves.
@@ -150,7 +149,7 @@ typedef struct DipPreviewState {
     char scene_words[DIP_SCENE_WORDS_BYTES]; // Options that name the scene: " --model a.glb".
     int pane_width; // Size of a pane's picture, in pixels; 0 before the first one.
     int pane_height;
-    bool quit;
+    bool quit;        // The user or another program has ended the preview.
     bool in_terminal; // The preview shows characters, without the window's tools.
     bool full_screen;
     DipToolState tools;
@@ -284,15 +283,9 @@ void dip_preview_error_text(const DipError *err, char text[DIP_NOTICE_SIZE]);
 // warnings, which take longer to read than other notices.
 void dip_preview_keep_notice(DipPreviewState *state, int64_t now_ns);
 
-// Returns the name that the ini gives to a category of paths ("DEFAULT", "AA", ...), or "?" for
-// another number.
-const char *dip_preview_category_name(int category);
-
-// These functions return the name and the title of a path of the state's track. A path of a
-// category has the category's name and title; if this path is the motion of a camera of the models,
-// its title is the camera's name. The paths past the last category are motions of such cameras, and
-// both functions return the camera's name.
-const char *dip_preview_path_name(const DipPreviewState *state, int category);
+// Returns the title of a path of the state's track. A path of a category has the category's title;
+// if this path is the motion of a camera of the models, its title is the camera's name. The paths
+// past the last category are motions of such cameras, too.
 const char *dip_preview_path_title(const DipPreviewState *state, int category);
 
 // Returns the name of a category of paths for display: "Default", "Water", or the title of the

@@ -1,6 +1,7 @@
 // Changes settings by steps, presets, advice and undo, and describes settings in words.
 #include "app/preview/state/state_private.h"
 
+#include "app/files/put.h"
 #include "renderer/base/assert.h"
 
 #include <ctype.h>
@@ -160,7 +161,7 @@ void dip_state_change_setting(const DipAct *act) {
 void dip_preview_set_quality(DipPreviewState *state, int pane, const DipQuality *quality,
                              int64_t now_ns) {
     char text[96];
-    if (memcmp(&state->quality[pane], quality, sizeof *quality) != 0) {
+    if (!dip_quality_equal(&state->quality[pane], quality)) {
         remember(state);
         state->quality[pane] = *quality;
         dip_preview_describe(quality, true, text, sizeof text);
@@ -363,19 +364,16 @@ void dip_preview_how_to(const DipPreviewState *state, DipHowTo lines) {
 }
 
 void dip_preview_describe(const DipQuality *quality, bool brief, char *text, size_t size_bytes) {
-    size_t length = 0;
     text[0] = '\0';
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-        if (quality->step[s] == info->default_step || length + 1 >= size_bytes) {
+        if (quality->step[s] == info->default_step) {
             continue;
         }
         char one[64];
         (brief ? describe_briefly : describe_fully)((DipSetting)s, info->steps[quality->step[s]],
                                                     one, sizeof one);
-        const int written =
-            snprintf(text + length, size_bytes - length, "%s%s", length ? ", " : "", one);
-        length += written > 0 ? (size_t)written : 0;
+        dip_put_append(text, size_bytes, "%s%s", text[0] ? ", " : "", one);
     }
     if (!text[0]) {
         snprintf(text, size_bytes, "Default settings");

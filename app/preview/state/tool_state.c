@@ -23,6 +23,13 @@ void dip_tool_state_divide(DipToolState *tools, double at) {
     tools->divider = at > 0.0 ? (at < 1.0 ? at : 1.0) : 0.0;
 }
 
+void dip_tool_state_choose_map(DipToolState *tools, DipMap map) {
+    tools->map = map;
+    if (map != DIP_MAP_NONE) {
+        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE;
+    }
+}
+
 bool dip_tool_state_adjust(DipToolState *tools, int steps) {
     if (tools->comparison == DIP_COMPARE_WIPE) {
         dip_tool_state_divide(tools, tools->divider + (double)steps / DIVIDER_STEPS);
@@ -30,6 +37,10 @@ bool dip_tool_state_adjust(DipToolState *tools, int steps) {
     }
     if (tools->comparison == DIP_COMPARE_DIFFERENCE) {
         tools->gain = doubled(tools->gain, steps, 1, DIP_COMPARE_MAX_GAIN);
+        return true;
+    }
+    if (tools->map != DIP_MAP_NONE) {
+        tools->brightness = doubled(tools->brightness, steps, 1, DIP_MAP_MAX_BRIGHTNESS);
         return true;
     }
     return false;

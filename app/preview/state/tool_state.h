@@ -42,11 +42,10 @@ typedef enum DipMap {
     DIP_MAP_COUNT
 } DipMap;
 
-enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32, DIP_COMPARE_MAX_GAIN = 64 };
+enum { DIP_LOUPE_MIN_ZOOM = 2, DIP_LOUPE_MAX_ZOOM = 32 };
+enum { DIP_COMPARE_MAX_GAIN = 64, DIP_MAP_MAX_BRIGHTNESS = 8 };
 
 // The choices of the user. Plain data; part of the preview's state.
-enum { DIP_BRIGHTNESS_COUNT = 4 }; // Number of brightnesses of maps (DipToolState.brightness).
-
 typedef struct DipToolState {
     DipTab tab;
     bool open;        // The dock is open and shows `tab`.
@@ -68,8 +67,8 @@ typedef struct DipToolState {
                         // (`blinks`) reverses this.
     bool blinks;        // BLINK: a timer switches between the panes, twice a second.
     DipMap map;
-    double brightness; // The value at the end of a map's colour scale is divided by this: 1, 2, ...
-                       // 1 << (DIP_BRIGHTNESS_COUNT - 1). A value below 1 counts as 1.
+    int brightness; // The value at the end of a map's colour scale is divided by this: 1, 2, 4 or
+                    // 8. A value below 1 counts as 1.
 } DipToolState;
 
 // Doubles the loupe's zoom `steps` times, or halves it for steps below 0, within its range.
@@ -78,9 +77,13 @@ void dip_tool_state_zoom(DipToolState *tools, int steps);
 // Puts the divider at a share of the picture's width; below 0 counts as 0, above 1 as 1.
 void dip_tool_state_divide(DipToolState *tools, double at);
 
+// Chooses a map, or DIP_MAP_NONE. A map needs both panes side by side, so choosing a map also
+// chooses DIP_COMPARE_SIDE_BY_SIDE.
+void dip_tool_state_choose_map(DipToolState *tools, DipMap map);
+
 // In a wipe, moves the divider by `steps` times 1/64 of the picture's width. In a difference,
-// doubles the gain `steps` times; steps below 0 halve it. Returns false if the chosen comparison
-// has neither divider nor gain.
+// doubles the gain `steps` times, and otherwise the brightness of the chosen map; steps below 0
+// halve it. Returns false if there is nothing to adjust.
 bool dip_tool_state_adjust(DipToolState *tools, int steps);
 
 #endif

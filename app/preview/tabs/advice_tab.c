@@ -2,6 +2,7 @@
 // and a plot of all settings that can be chosen. With live prices, a text about cost reports takes
 // the place of the next better settings and of the plot. Everything else comes from the preview's
 // choice (prices/choice.h), which is computed from a cost report or from live prices (prices.h).
+#include "app/files/put.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/report/words.h"
@@ -136,8 +137,8 @@ static void declare_try(DipUi *ui, DipWindow *window, const DipCandidate *advise
         }
         return;
     }
-    const bool same = advised && memcmp(&advised->quality, &state->quality[DIP_PANE_REQUESTED],
-                                        sizeof advised->quality) == 0;
+    const bool same =
+        advised && dip_quality_equal(&advised->quality, &state->quality[DIP_PANE_REQUESTED]);
     if (dip_ui_button(ui, id_of(ID_TRY), rect, "Try it right",
                       advised && !same ? DIP_UI_PRIMARY : DIP_UI_OFF,
                       same      ? "The right pane has these settings."
@@ -173,14 +174,12 @@ static void declare_advised(DipUi *ui, DipWindow *window, DipRect room) {
 
 // Writes what changes from one combination of settings to another: "asd 1 → 2".
 static void format_change(const DipQuality *from, const DipQuality *to, char text[160]) {
-    size_t length = 0;
     text[0] = '\0';
-    for (int s = 0; s < DIP_SETTING_COUNT && length < 140; ++s) {
+    for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
         if (from->step[s] != to->step[s]) {
             const DipSettingInfo *info = dip_setting_info((DipSetting)s);
-            length += (size_t)snprintf(text + length, 160 - length, "%s%s %s \u2192 %s",
-                                       length ? ", " : "", info->key, info->steps[from->step[s]],
-                                       info->steps[to->step[s]]);
+            dip_put_append(text, 160, "%s%s %s \u2192 %s", text[0] ? ", " : "", info->key,
+                           info->steps[from->step[s]], info->steps[to->step[s]]);
         }
     }
 }
@@ -409,7 +408,7 @@ static void draw_marks(DipUi *ui, const DipWindow *window, const Plot *plot) {
     for (int i = 0; i < choice->candidates.count; ++i) {
         const DipCandidate *point = &choice->candidates.list[i];
         const int x = plot_x(plot, point->time.value), y = plot_y(plot, point->flip);
-        if (memcmp(&point->quality, current, sizeof point->quality) == 0) {
+        if (dip_quality_equal(&point->quality, current)) {
             draw_dot(ui, plot, point, 13, dip_style_white);
             draw_dot(ui, plot, point, 9, dip_style_well);
             draw_dot(ui, plot, point, 7, dip_style_gain);

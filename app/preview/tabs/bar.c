@@ -68,23 +68,16 @@ static void draw_ring(DipUi *ui, DipRect rect, const DipUiInput *input) {
     }
 }
 
-// Declares a button of the bar that carries out an action. Returns what the user did.
-static DipUiInput declare_button(DipUi *ui, DipWindow *window, int control, DipRect rect,
-                                 DipAction action, int argument, const char *tip) {
+// Cuts a button with a symbol, which carries out an action, from the left side of *rest.
+static void declare_symbol(DipUi *ui, DipWindow *window, const Bar *bar, DipRect *rest, int control,
+                           int icon, DipAction action, int argument, const char *tip) {
+    const DipRect rect = dip_cut_left(rest, bar->button);
     const DipUiInput input =
         dip_ui_control(ui, &(DipUiControl){.id = bar_id(control), .rect = rect, .tip = tip});
     draw_ring(ui, rect, &input);
     if (input.pressed) {
         dip_preview_act(window->state, action, argument, false, dip_ui_now_ns(ui));
     }
-    return input;
-}
-
-// Cuts a button with a symbol from the left side of *rest, and declares it.
-static void declare_symbol(DipUi *ui, DipWindow *window, const Bar *bar, DipRect *rest, int control,
-                           int icon, DipAction action, const char *tip) {
-    const DipRect rect = dip_cut_left(rest, bar->button);
-    const DipUiInput input = declare_button(ui, window, control, rect, action, 0, tip);
     dip_icon_draw(ui, icon, rect, colour_of(&input, control == BAR_PLAY));
 }
 
@@ -104,8 +97,8 @@ static void format_place(const DipPreviewState *state, int category, bool brief,
         snprintf(text, size_bytes, "%s%s%s  %.1f s", state->scene_title, brief ? "" : ": ",
                  brief ? "" : state->scene_look, 1e-9 * (double)state->play_ns);
     } else if (brief) {
-        snprintf(text, size_bytes, "%s %.*f s", dip_preview_path_name(state, category), decimals,
-                 seconds);
+        snprintf(text, size_bytes, "%s %.*f s", dip_session_path_name(state->track, category),
+                 decimals, seconds);
     } else {
         snprintf(text, size_bytes, "%s  %.*f of %.0f s", dip_preview_path_title(state, category),
                  decimals, seconds, length);
@@ -227,14 +220,13 @@ static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
             dip_preview_act(window->state, DIP_ACTION_TAB, t, false, dip_ui_now_ns(ui));
             chosen = true;
         }
+        DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
         if (chosen) {
-            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
             dip_ui_fill(ui, rect, dip_style_dock);
-            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_white);
         }
-        if (tool_shows && !chosen) {
-            DipRect line = dip_rect_inset(rect, dip_ui_px(ui, 8), 0);
-            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)), dip_style_accent);
+        if (chosen || tool_shows) {
+            dip_ui_fill(ui, dip_cut_bottom(&line, dip_ui_px(ui, 2)),
+                        chosen ? dip_style_white : dip_style_accent);
         }
         if (bar->words) {
             dip_ui_label(ui, TAB_SIZE, colour_of(&input, chosen), DIP_ALIGN_CENTRE, rect,
@@ -247,16 +239,16 @@ static void declare_tabs(DipUi *ui, DipWindow *window, const Bar *bar) {
 
 static void declare_playback(DipUi *ui, DipWindow *window, const Bar *bar, DipRect rest) {
     if (bar->play == 3) {
-        declare_symbol(ui, window, bar, &rest, BAR_BACK, DIP_ICON_BACK, DIP_ACTION_STEP_BACK,
+        declare_symbol(ui, window, bar, &rest, BAR_BACK, DIP_ICON_BACK, DIP_ACTION_STEP, -1,
                        "One frame back (,)");
     }
     if (bar->play > 0) {
         declare_symbol(ui, window, bar, &rest, BAR_PLAY,
-                       window->state->paused ? DIP_ICON_PLAY : DIP_ICON_PAUSE, DIP_ACTION_PAUSE,
+                       window->state->paused ? DIP_ICON_PLAY : DIP_ICON_PAUSE, DIP_ACTION_PAUSE, 0,
                        "Pause or play (Space)");
     }
     if (bar->play == 3) {
-        declare_symbol(ui, window, bar, &rest, BAR_ON, DIP_ICON_STEP, DIP_ACTION_STEP,
+        declare_symbol(ui, window, bar, &rest, BAR_ON, DIP_ICON_STEP, DIP_ACTION_STEP, 1,
                        "One frame on (.)");
     }
 }
@@ -280,9 +272,7 @@ static void declare_time_line(DipUi *ui, DipWindow *window, DipRect rect) {
     if (input.began || (input.held && input.moved)) {
         seek(state, &input, rect);
     } else if (input.steps) {
-        dip_preview_act(state, DIP_ACTION_SEEK,
-                        1000 * (input.steps < 0 ? -input.steps : input.steps), input.steps < 0,
-                        dip_ui_now_ns(ui));
+        dip_preview_act(state, DIP_ACTION_SEEK, 1000 * input.steps, false, dip_ui_now_ns(ui));
     } else if (input.to_first || input.to_last) {
         dip_preview_seek_path(state, input.to_first ? 0 : length_ns - state->step_ns);
     }
@@ -322,18 +312,18 @@ static void declare_tail(DipUi *ui, DipWindow *window, const Bar *bar, DipRect r
     const DipPreviewState *state = window->state;
     const bool full = state->full_screen, open = state->tools.open;
     if (bar->tail >= TAIL_HELP) {
-        declare_symbol(ui, window, bar, &rest, BAR_HELP, DIP_ICON_HELP, DIP_ACTION_HELP,
+        declare_symbol(ui, window, bar, &rest, BAR_HELP, DIP_ICON_HELP, DIP_ACTION_HELP, 0,
                        "All keys (F1)");
     }
     if (bar->tail >= TAIL_ALL) {
-        declare_symbol(ui, window, bar, &rest, BAR_PANES, DIP_ICON_PANES, DIP_ACTION_BARE,
+        declare_symbol(ui, window, bar, &rest, BAR_PANES, DIP_ICON_PANES, DIP_ACTION_BARE, 0,
                        "Panes only: no panel and no text (/)");
         declare_symbol(ui, window, bar, &rest, BAR_FULL_SCREEN, DIP_ICON_FULL_SCREEN,
-                       DIP_ACTION_FULL_SCREEN,
+                       DIP_ACTION_FULL_SCREEN, 0,
                        full ? "Back to a window (F11)" : "Full screen (F11)");
     }
     declare_symbol(ui, window, bar, &rest, BAR_FOLD, open ? DIP_ICON_FOLD : DIP_ICON_OPEN,
-                   DIP_ACTION_DOCK, open ? "Fold the panel (Y)" : "Open the panel (Y)");
+                   DIP_ACTION_DOCK, 0, open ? "Fold the panel (Y)" : "Open the panel (Y)");
 }
 
 void dip_bar_declare(DipUi *ui, DipWindow *window) {

@@ -8,7 +8,6 @@
 #include "app/ui/style.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 // SMALL and TINY are letter sizes. All sizes and lengths are at scale 1.
 enum {
@@ -180,7 +179,7 @@ static void declare_thumbnail(DipUi *ui, DipWindow *window, int index, DipRect r
                                            .rect = rect,
                                            .tip = "Click: go to this time on the path."});
     char text[32];
-    if (input.pressed && dip_strip_duration_ns(strip) > 0) {
+    if (input.pressed && strip->duration_ns > 0) {
         dip_preview_seek_path(window->state, thumbnail.time_ns);
         window->state->manual = false;
     }
@@ -231,18 +230,23 @@ static void declare_strip(DipUi *ui, DipWindow *window, DipRect rest) {
 }
 
 void dip_tab_compare(DipUi *ui, DipWindow *window, DipRect body) {
-    static const char *const tips[DIP_COMPARISON_COUNT] = {
-        [DIP_COMPARE_SIDE_BY_SIDE] = "Shows both panes beside each other.",
-        [DIP_COMPARE_WIPE] = "Shows one picture: current left of a line, requested right of it.",
-        [DIP_COMPARE_BLINK] = "Shows both pictures at one position, one after the other.",
-        [DIP_COMPARE_DIFFERENCE] = "Shows how far each channel of each pixel differs.",
-        [DIP_COMPARE_ALONE] = "Shows one pane alone in the room of both.",
-        [DIP_COMPARE_TRUTH] = "Shows the converged picture in place of the current pane.",
+    static const char *const names[DIP_COMPARISON_COUNT][2] = {
+        // Names and tips.
+        [DIP_COMPARE_SIDE_BY_SIDE] = {"Side by side", "Shows both panes beside each other."},
+        [DIP_COMPARE_WIPE] = {"Wipe", "Shows one picture: current left of a line, requested right "
+                                      "of it."},
+        [DIP_COMPARE_BLINK] = {"Blink",
+                               "Shows both pictures at one position, one after the other."},
+        [DIP_COMPARE_DIFFERENCE] = {"Difference",
+                                    "Shows how far each channel of each pixel differs."},
+        [DIP_COMPARE_ALONE] = {"One pane", "Shows one pane alone in the room of both."},
+        [DIP_COMPARE_TRUTH] = {"Truth",
+                               "Shows the converged picture in place of the current pane."},
     };
-    DipFlow flow = dip_flow_make(ui, window, DIP_UI_COMPARE, body, SMALL);
+    DipFlow flow = dip_flow_make(ui, window, DIP_UI_COMPARE, body, SMALL, false);
     for (int c = 0; c < DIP_COMPARISON_COUNT; ++c) {
-        if (dip_flow_choice(&flow, ID_COMPARISON + (unsigned)c, dip_compare_name((DipComparison)c),
-                            window->state->tools.comparison == (DipComparison)c, tips[c])) {
+        if (dip_flow_choice(&flow, ID_COMPARISON + (unsigned)c, names[c][0],
+                            window->state->tools.comparison == (DipComparison)c, names[c][1])) {
             window->state->tools.comparison = (DipComparison)c;
         }
     }

@@ -4,7 +4,8 @@
 
 enum { LETTERS = 12, ROW = 26, GAP = 6, PAD = 20, LOW_ROW = 21, LOW_GAP = 3, LOW_PAD = 12 };
 
-DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size) {
+DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size,
+                      bool narrow) {
     const int margin = dip_ui_px(ui, 8);
     const DipRect inside = {body.x + margin, body.y + dip_ui_px(ui, 6), body.width - 2 * margin,
                             body.height - margin};
@@ -15,16 +16,10 @@ DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect bo
                      .body = inside,
                      .x = inside.x,
                      .y = inside.y,
-                     .row = dip_ui_px(ui, ROW),
-                     .gap = dip_ui_px(ui, GAP),
-                     .pad = dip_ui_px(ui, PAD)};
-}
-
-void dip_flow_make_narrow(DipFlow *flow) {
-    flow->narrow = true;
-    flow->row = dip_ui_px(flow->ui, LOW_ROW);
-    flow->gap = dip_ui_px(flow->ui, LOW_GAP);
-    flow->pad = dip_ui_px(flow->ui, LOW_PAD);
+                     .row = dip_ui_px(ui, narrow ? LOW_ROW : ROW),
+                     .gap = dip_ui_px(ui, narrow ? LOW_GAP : GAP),
+                     .pad = dip_ui_px(ui, narrow ? LOW_PAD : PAD),
+                     .narrow = narrow};
 }
 
 void dip_flow_next_row(DipFlow *flow) {

@@ -7,7 +7,6 @@
 #include "app/ui/style.h"
 
 #include <stdio.h>
-#include <string.h>
 
 // --- a pane's time -------------------------------------------------------------------------------
 
@@ -207,8 +206,9 @@ static void draw_label(DipUi *ui, const DipWindow *window, int pane) {
 }
 
 void dip_labels_draw(DipUi *ui, DipWindow *window) {
-    for (int p = 0; dip_ui_is_drawing(ui) && p < DIP_PANE_COUNT; ++p) {
-        if (dip_compare_has_label(window, p)) {
+    const bool shows = window->state->tools.comparison != DIP_COMPARE_DIFFERENCE;
+    for (int p = 0; shows && dip_ui_is_drawing(ui) && p < DIP_PANE_COUNT; ++p) {
+        if (!dip_rect_is_empty(dip_compare_visible(window, p))) {
             draw_label(ui, window, p);
         }
     }

@@ -1,4 +1,5 @@
 // Declares the loupe's tab: an enlarged crop of each pane, and figures of the pixel in its middle.
+#include "app/files/put.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/preview/tools/loupe.h"
 #include "app/ui/layout.h"
@@ -17,7 +18,6 @@ enum {
     DETAILS_WIDTH = 264, // Width of a pixel's box and figures beside a crop.
     FIGURES_WIDTH = 128, // Width of the figures without the box.
     LEAST_CROP = 64,     // Least width of a crop that has text beside it.
-    SAMPLES_ZOOM = 16,   // Least zoom at which the crop marks samples.
 };
 
 enum { ID_ZOOM, ID_PIN = 8, ID_CROP };
@@ -46,21 +46,19 @@ static DipColour pixel_of(const DipPixels *picture, int x, int y) {
 // Writes the pixel's linear light, from 0 to 1: ".761 .102 .000".
 static void format_linear(const Part *part, char text[32]) {
     const uint8_t codes[3] = {part->pixel.red, part->pixel.green, part->pixel.blue};
-    size_t length = 0;
+    text[0] = '\0';
     for (int c = 0; c < 3; ++c) {
         char number[16];
         snprintf(number, sizeof number, "%.3f", dip_loupe_linear(part->loupe, codes[c]));
-        length += (size_t)snprintf(text + length, 32 - length, "%s%s", c ? " " : "",
-                                   number + (number[0] == '0'));
+        dip_put_append(text, 32, "%s%s", c ? " " : "", number + (number[0] == '0'));
     }
 }
 
-static void say_pixel(Part *part) {
+// Writes the pixel's colour in sRGB codes and in linear light.
+static void say_levels(Part *part) {
     const DipColour *c = &part->pixel;
     char linear[32];
     format_linear(part, linear);
-    dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "#%02X%02X%02X", c->red, c->green,
-                c->blue);
     dip_ui_line(part->ui, SMALL, dip_style_white, &part->rest, "%d %d %d", c->red, c->green,
                 c->blue);
     dip_ui_line(part->ui, TINY, dip_style_dim, &part->rest, "linear");
@@ -194,12 +192,13 @@ static void show_details(Part *part, DipRect rect) {
         draw_box(part, (DipRect){left.x, left.y, side, side});
         dip_cut_left(&part->rest, gap);
     }
-    if (4 * small <= rect.height) {
-        say_pixel(part);
-        say_samples(part);
-    } else if (small <= rect.height) {
+    if (small <= rect.height) {
         dip_ui_line(ui, SMALL, dip_style_white, &part->rest, "#%02X%02X%02X", c->red, c->green,
                     c->blue);
+    }
+    if (4 * small <= rect.height) {
+        say_levels(part);
+        say_samples(part);
     }
     if (box) {
         part->rest = rect;
@@ -284,7 +283,7 @@ static void want_samples(const Part *part, const DipLoupeCrop *crop) {
     const DipToolState *tools = &part->window->state->tools;
     const DipRect *source = &crop->source;
     DipTargetRegion region = {tools->x, tools->y, tools->x + 1, tools->y + 1};
-    if (crop->zoom >= SAMPLES_ZOOM && !dip_rect_is_empty(*source)) {
+    if (crop->zoom >= DIP_LOUPE_MARKS_ZOOM && !dip_rect_is_empty(*source)) {
         region = (DipTargetRegion){source->x, source->y, dip_rect_right(*source),
                                    dip_rect_bottom(*source)};
     }

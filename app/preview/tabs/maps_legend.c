@@ -117,7 +117,7 @@ static void draw_ticks(const Tab *tab, DipRect area, double end) {
     for (int i = 0; i <= TICKS; i++) {
         char text[16];
         dip_map_format(end * i / TICKS, text, sizeof text - 2);
-        if (i == TICKS && tab->tools->brightness > 1.0) {
+        if (i == TICKS && tab->tools->brightness > 1) {
             strcat(text, " +");
         }
         dip_ui_text(tab->ui, NOTE, dip_style_soft,
@@ -129,17 +129,17 @@ static void draw_ticks(const Tab *tab, DipRect area, double end) {
 }
 
 static void brightness_buttons(const Tab *tab, DipRect rest) {
-    const double brightness = fmax(1.0, tab->tools->brightness);
+    unsigned id = ID_BRIGHTNESS;
     rest.width = px(tab, 100);
     dip_cut_left(&rest, put(tab, NOTE, dip_style_soft, rest, 4, "Brightness") + px(tab, 8));
-    for (int i = 0; i < DIP_BRIGHTNESS_COUNT; i++) {
+    for (int brightness = 1; brightness <= DIP_MAP_MAX_BRIGHTNESS; brightness *= 2) {
         char text[8];
-        snprintf(text, sizeof text, "%dx", 1 << i);
-        if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_BRIGHTNESS + i),
-                          dip_cut_left(&rest, px(tab, 30)), text,
-                          brightness == 1 << i ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
-                          "Ends the scale at this fraction of its full range.\nKeys: [ and ]")) {
-            tab->tools->brightness = 1 << i;
+        snprintf(text, sizeof text, "%dx", brightness);
+        if (dip_ui_button(
+                tab->ui, DIP_UI_ID(DIP_UI_MAPS, id++), dip_cut_left(&rest, px(tab, 30)), text,
+                dip_max(1, tab->tools->brightness) == brightness ? DIP_UI_CHOSEN : DIP_UI_PLAIN,
+                "Ends the scale at this fraction of its full range.\nKeys: [ and ]")) {
+            tab->tools->brightness = brightness;
         }
         dip_cut_left(&rest, px(tab, 4));
     }

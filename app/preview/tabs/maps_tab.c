@@ -44,7 +44,7 @@ static DipRect map_buttons(const Tab *tab, DipRect area) {
         cell.height = px(tab, BUTTON);
         if (dip_ui_button(tab->ui, DIP_UI_ID(DIP_UI_MAPS, ID_MAP + i), cell, map_names[map],
                           chosen ? DIP_UI_CHOSEN : DIP_UI_PLAIN, map_tips[map])) {
-            dip_maps_choose(tab->tools, chosen ? DIP_MAP_NONE : map);
+            dip_tool_state_choose_map(tab->tools, chosen ? DIP_MAP_NONE : map);
         }
     }
     dip_cut_top(&area, (MAP_BUTTONS - 1) / columns * pitch + pitch + px(tab, 4));

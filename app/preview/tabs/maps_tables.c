@@ -1,6 +1,5 @@
 // Draws the tables of the maps' tab: one of the whole frame, and one of the pixel or the tile under
 // the mouse or at the pinned pixel.
-#include "app/measure/metrics/flip.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/maps_tab_private.h"
 

@@ -141,7 +141,7 @@ static void declare_paths(DipFlow *flow) {
     }
     for (int i = 0; i < choices.count; ++i) {
         texts[i] = dip_preview_path_title(state, paths[i]);
-        names[i] = dip_preview_path_name(state, paths[i]);
+        names[i] = dip_session_path_name(state->track, paths[i]);
         choices.playing = paths[i] == state->track->active ? i : choices.playing;
     }
     const int pressed = declare_choices(flow, &choices);
@@ -342,10 +342,8 @@ static void declare_steps(DipFlow *flow) {
 }
 
 void dip_tab_path(DipUi *ui, DipWindow *window, DipRect body) {
-    DipFlow flow = dip_flow_make(ui, window, DIP_UI_PATH, body, 12);
-    if (body.width < dip_ui_px(ui, NARROW)) {
-        dip_flow_make_narrow(&flow);
-    }
+    DipFlow flow =
+        dip_flow_make(ui, window, DIP_UI_PATH, body, 12, body.width < dip_ui_px(ui, NARROW));
     declare_paths(&flow);
     dip_flow_next_row(&flow);
     if (window->state->editor) {

@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { NOTE_SIZE = 11 };
 
@@ -54,9 +53,8 @@ static DipUiLook describe_preset(const DipWindow *window, DipPreset preset, char
     }
     dip_quality_format_changes(&quality, text, sizeof text);
     snprintf(tip, 320, "%s: %s%s", name, text, price);
-    return memcmp(&quality, &window->state->quality[DIP_PANE_REQUESTED], sizeof quality) == 0
-               ? DIP_UI_CHOSEN
-               : DIP_UI_PLAIN;
+    return dip_quality_equal(&quality, &window->state->quality[DIP_PANE_REQUESTED]) ? DIP_UI_CHOSEN
+                                                                                    : DIP_UI_PLAIN;
 }
 
 void dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns) {
@@ -77,7 +75,7 @@ void dip_presets_declare(DipUi *ui, DipWindow *window, DipRect rect, int columns
 
 void dip_apply_declare(DipUi *ui, DipWindow *window, DipRect rect) {
     DipPreviewState *state = window->state;
-    const bool same = memcmp(&state->quality[0], &state->quality[1], sizeof state->quality[0]) == 0;
+    const bool same = dip_quality_equal(&state->quality[0], &state->quality[1]);
     if (dip_ui_button(ui, id_of(DIP_ID_APPLY), rect, same ? "Same" : "Apply",
                       same ? DIP_UI_OFF : DIP_UI_PRIMARY,
                       same ? "Both panes have the same settings, so there is nothing to apply."

@@ -1,5 +1,6 @@
 // Declares the controls of settings: the entries of the list, the editor with the price of each
 // step (value) of the open setting, and the lines of the list in a narrow or low tab.
+#include "app/files/put.h"
 #include "app/preview/prices/price_text.h"
 #include "app/preview/tabs/tabs.h"
 #include "app/ui/layout.h"
@@ -308,13 +309,12 @@ static void declare_path(DipUi *ui, DipWindow *window, DipSetting setting, DipRe
 
 // Adds to a note how many pixels a step of the render scale draws.
 static void add_drawn_size(const DipPreviewState *state, int step, char note[DIP_STEP_TEXT_BYTES]) {
-    const size_t length = strlen(note);
     DipQuality quality = state->quality[dip_preview_edited_pane(state)];
     quality.step[DIP_SETTING_SCALE] = (uint8_t)step;
     if (state->pane_width > 0) {
-        snprintf(note + length, DIP_STEP_TEXT_BYTES - length, "\nDraws %d x %d pixels.",
-                 dip_quality_drawn_size(&quality, state->pane_width),
-                 dip_quality_drawn_size(&quality, state->pane_height));
+        dip_put_append(note, DIP_STEP_TEXT_BYTES, "\nDraws %d x %d pixels.",
+                       dip_quality_drawn_size(&quality, state->pane_width),
+                       dip_quality_drawn_size(&quality, state->pane_height));
     }
 }
 

@@ -172,8 +172,8 @@ void dip_sheet_draw_costs(DipDrawList *list, const DipPreviewState *state, doubl
 
 // --- help ----------------------------------------------------------------------------------------
 
-// Lists the keys whose label or text contains `words`, in groups of
-// `table->rows` rows. Returns the number of listed keys.
+// Lists the keys whose label or text contains `words`, in groups of table->rows rows. Returns the
+// number of listed keys.
 static int list_keys(Table *table, const char *words) {
     int count = 0;
     memset(table->cells, 0, sizeof table->cells);

@@ -27,24 +27,19 @@ typedef struct Parts {
 } Parts;
 
 static Parts parts_of(const DipPriceSum *sum) {
+    // 0 stands for PART_OTHER, since no setting belongs to PART_BASE.
     static const int part_of[DIP_SETTING_COUNT] = {
-        [DIP_SETTING_AA] = PART_AA,          [DIP_SETTING_TAA] = PART_AA,
-        [DIP_SETTING_AAA] = PART_ADAPTIVE,   [DIP_SETTING_ASD] = PART_ADAPTIVE,
-        [DIP_SETTING_AF] = PART_AF,          [DIP_SETTING_AAF] = PART_AF,
-        [DIP_SETTING_OPT] = PART_OTHER,      [DIP_SETTING_MIPLOD] = PART_OTHER,
-        [DIP_SETTING_SCALE] = PART_OTHER,    [DIP_SETTING_UPSCALE] = PART_OTHER,
-        [DIP_SETTING_POST] = PART_OTHER,     [DIP_SETTING_SHARPEN] = PART_OTHER,
-        [DIP_SETTING_SHADOWS] = PART_OTHER,  [DIP_SETTING_GI] = PART_OTHER,
-        [DIP_SETTING_MIPDEBUG] = PART_OTHER,
+        [DIP_SETTING_AA] = PART_AA,        [DIP_SETTING_TAA] = PART_AA,
+        [DIP_SETTING_AAA] = PART_ADAPTIVE, [DIP_SETTING_ASD] = PART_ADAPTIVE,
+        [DIP_SETTING_AF] = PART_AF,        [DIP_SETTING_AAF] = PART_AF,
     };
     Parts parts = {.ms = {[PART_BASE] = sum->base_ms}, .rest_ms = sum->together_ms};
     for (int s = 0; s < DIP_SETTING_COUNT; ++s) {
-        const bool doubtful = sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL;
-        if (doubtful) {
+        if (sum->parts_trust[s] == DIP_PRICE_TRUST_DOUBTFUL) {
             parts.rest_ms += sum->parts_ms[s];
             parts.doubt = true;
         } else {
-            parts.ms[part_of[s]] += sum->parts_ms[s];
+            parts.ms[part_of[s] ? part_of[s] : PART_OTHER] += sum->parts_ms[s];
         }
     }
     return parts;

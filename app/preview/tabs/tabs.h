@@ -44,14 +44,14 @@ typedef struct DipFlow {
     int row; // Height of a row.
     int gap;
     int pad;     // How much wider a button is than its text.
-    bool narrow; // See dip_flow_make_narrow.
+    bool narrow; // See dip_flow_make.
 } DipFlow;
 
-// Returns a flow that begins at the top of a tab. note_size: letter size of notes, at scale 1.
-DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size);
-// Saves room in a narrow tab: rows and buttons become smaller, notes are left out, and a group of
-// controls does not begin a new row.
-void dip_flow_make_narrow(DipFlow *flow);
+// Returns a flow that begins at the top of a tab. note_size: letter size of notes, at scale 1. A
+// narrow flow saves room: rows and buttons are smaller, notes are left out, and a group of controls
+// does not begin a new row.
+DipFlow dip_flow_make(DipUi *ui, DipWindow *window, DipUiGroup group, DipRect body, int note_size,
+                      bool narrow);
 void dip_flow_next_row(DipFlow *flow);
 // Begins a new row for the next group of controls, unless the flow is narrow.
 void dip_flow_next_group(DipFlow *flow);

@@ -9,18 +9,6 @@
 
 static const int64_t blink_ns = 500000000; // How long the timer of BLINK shows each pane.
 
-const char *dip_compare_name(DipComparison comparison) {
-    static const char *const names[DIP_COMPARISON_COUNT] = {
-        [DIP_COMPARE_SIDE_BY_SIDE] = "Side by side",
-        [DIP_COMPARE_WIPE] = "Wipe",
-        [DIP_COMPARE_BLINK] = "Blink",
-        [DIP_COMPARE_DIFFERENCE] = "Difference",
-        [DIP_COMPARE_ALONE] = "One pane",
-        [DIP_COMPARE_TRUTH] = "Truth",
-    };
-    return names[comparison];
-}
-
 // --- arithmetic --------------------------------------------------------------------------------
 
 bool dip_compare_is_one_picture(DipComparison comparison) {
@@ -137,11 +125,6 @@ DipRect dip_compare_visible(const DipWindow *window, int pane) {
     default: // The other comparisons hide nothing.
         return shown;
     }
-}
-
-bool dip_compare_has_label(const DipWindow *window, int pane) {
-    return window->state->tools.comparison != DIP_COMPARE_DIFFERENCE &&
-           !dip_rect_is_empty(dip_compare_visible(window, pane));
 }
 
 bool dip_compare_pixel_at(const DipWindow *window, int window_x, int window_y, int *pane, int *x,

@@ -40,9 +40,6 @@ DipRect dip_compare_shown(const DipWindow *window, int pane);
 // the comparison hides the pane. The pane's label belongs in the top left corner of this part.
 DipRect dip_compare_visible(const DipWindow *window, int pane);
 
-// Returns whether a pane's picture shows and needs its label. A difference has a label of its own.
-bool dip_compare_has_label(const DipWindow *window, int pane);
-
 // Finds the pane and the pixel of its picture that the window shows at window_x, window_y. Returns
 // false if no pane shows there.
 bool dip_compare_pixel_at(const DipWindow *window, int window_x, int window_y, int *pane, int *x,
@@ -73,8 +70,6 @@ int dip_compare_pane(const DipPreviewState *state, int64_t now_ns);
 // Returns when the window must be drawn again because the timer of BLINK switches the picture.
 // Returns INT64_MAX if BLINK is not chosen or this timer is off.
 int64_t dip_compare_wakes_ns(const DipToolState *tools, int64_t now_ns);
-
-const char *dip_compare_name(DipComparison comparison); // "Side by side"
 
 // --- memory ------------------------------------------------------------------------------------
 

@@ -183,10 +183,7 @@ void dip_compare_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes
             drag_divider(ui, window, &panes[p]);
         }
     }
-    if (!dip_ui_is_drawing(ui)) {
-        return;
-    }
-    if (tools->bare) {
+    if (!dip_ui_is_drawing(ui) || tools->bare) {
         return;
     }
     if (tools->comparison == DIP_COMPARE_WIPE) {

@@ -25,9 +25,10 @@ static void place_panes(DipLayout *layout, int height) {
         (DipRect){layout->width - width, 0, width, dip_max(1, height)};
 }
 
-DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare) {
+DipLayout dip_layout_make(int width, int height, double display_scale, const DipToolState *tools) {
+    const double scale = dip_layout_scale(display_scale, tools, height);
     DipLayout layout = {.width = width, .height = height, .scale = scale};
-    if (bare) {
+    if (tools->bare) {
         place_panes(&layout, height);
         return layout;
     }
@@ -37,7 +38,7 @@ DipLayout dip_layout_make(int width, int height, double scale, bool open, bool b
     const bool fits =
         height - bar - body >= least && width >= dip_style_scaled(LEAST_DOCK_WIDTH, scale);
     layout.side = fits ? DIP_DOCK_BELOW : DIP_DOCK_DRAWER;
-    if (fits && open) {
+    if (fits && tools->open) {
         place_panes(&layout, height - bar - body);
         layout.bar = (DipRect){0, height - bar - body, width, bar};
         layout.body = (DipRect){0, height - body, width, body};
@@ -45,7 +46,7 @@ DipLayout dip_layout_make(int width, int height, double scale, bool open, bool b
     }
     place_panes(&layout, height - bar);
     layout.bar = (DipRect){0, height - bar, width, bar};
-    if (open) {
+    if (tools->open) {
         layout.body = layout.panes[DIP_PANE_CURRENT];
     }
     return layout;
@@ -57,13 +58,13 @@ DipRect dip_layout_gap(const DipLayout *layout) {
     return (DipRect){x, left->y, layout->panes[DIP_PANE_REQUESTED].x - x, left->height};
 }
 
-void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
-                            int *width, int *height) {
+void dip_layout_window_size(int pane_width, int pane_height, double display_scale,
+                            const DipToolState *tools, int *width, int *height) {
     *width = 2 * pane_width + DIP_PANE_GAP_PX;
     *height = pane_height;
     // The dock's height depends on the window's height: a low window has a low bar, and no dock
-    // below the panes.
-    while (dip_layout_make(*width, *height, scale, open, bare).panes[0].height < pane_height) {
+    // below the panes, and a high one has a greater scale.
+    while (dip_layout_make(*width, *height, display_scale, tools).panes[0].height < pane_height) {
         ++*height;
     }
 }

@@ -33,14 +33,14 @@ typedef struct DipLayout {
 // So text stays legible on a display with small pixels that reports a scale of 1.
 double dip_layout_scale(double display_scale, const DipToolState *tools, int height);
 
-// Lays a window out. scale: from dip_layout_scale. open: the dock shows a tab. bare: the window
-// shows nothing but the panes.
-DipLayout dip_layout_make(int width, int height, double scale, bool open, bool bare);
+// Lays a window out, with the scale of dip_layout_scale. `tools` says whether the dock shows a tab,
+// or the window nothing but the panes.
+DipLayout dip_layout_make(int width, int height, double display_scale, const DipToolState *tools);
 
 // Finds a size of the window in which each pane has the given size in pixels. The other arguments
 // are those of dip_layout_make.
-void dip_layout_window_size(int pane_width, int pane_height, double scale, bool open, bool bare,
-                            int *width, int *height);
+void dip_layout_window_size(int pane_width, int pane_height, double display_scale,
+                            const DipToolState *tools, int *width, int *height);
 
 // Returns the rectangle of the gap between the panes.
 DipRect dip_layout_gap(const DipLayout *layout);

@@ -96,7 +96,7 @@ bool dip_loupe_is_front(const DipSampleValue *samples, int count, int sample) {
 }
 
 DipSampleCount dip_loupe_count(const DipSampleValue *samples, int count) {
-    DipSampleCount result = {.samples = count};
+    DipSampleCount result = {.front = 0};
     const uint32_t front = samples[nearest_sample(samples, count)].patch;
     for (int s = 0; s < count; ++s) {
         bool seen = false, coloured = false;

@@ -53,7 +53,6 @@ bool dip_loupe_is_on(const DipToolState *tools);
 
 // How the samples of a pixel are divided among surface patches (readback.h).
 typedef struct DipSampleCount {
-    int samples; // Number of samples.
     int front;   // Number of samples that show the patch nearest to the eye.
     int patches; // Number of distinct patches. The background counts as a patch.
     int colours; // Number of distinct colours. Samples that were shaded together have one colour.
@@ -120,9 +119,12 @@ typedef struct DipCropContent {
     DipLoupeCrop crop;
 } DipCropContent;
 
-// Draws the enlarged pixels of a pane. From a zoom of 16 on, marks the known samples of pixels that
-// show several patches. *picture has the size of crop.frame and is valid until the next call for
-// the pane. Returns false if memory runs out.
+// Least zoom at which the crop marks samples. At smaller zooms, the marks would hide the pixels.
+enum { DIP_LOUPE_MARKS_ZOOM = 16 };
+
+// Draws the enlarged pixels of a pane. From DIP_LOUPE_MARKS_ZOOM on, marks the known samples of
+// pixels that show several patches. *picture has the size of crop.frame and is valid until the next
+// call for the pane. Returns false if memory runs out.
 bool dip_loupe_crop_picture(DipLoupe *loupe, int pane, const DipCropContent *content,
                             DipPixels *picture, uint64_t *version);
 

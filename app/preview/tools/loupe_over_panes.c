@@ -6,9 +6,6 @@
 #include "app/ui/style.h"
 #include "app/preview/tools/window.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 enum { TINY = 10 }; // Letter size at scale 1.
 
 // Outlines the part of a pane that the loupe shows enlarged. Assumes that the crop has its usual
@@ -23,7 +20,7 @@ static void mark_pane(DipUi *ui, const DipWindow *window, int pane) {
     const DipRect mark = dip_loupe_mark(shown, frame->width, frame->height, crop.source);
     const DipRect inside = dip_rect_intersect(mark, dip_compare_visible(window, pane));
     if (!dip_rect_is_empty(inside)) {
-        dip_ui_mark(ui, inside, pane == DIP_PANE_REQUESTED ? dip_style_accent : dip_style_white);
+        dip_ui_mark(ui, inside, dip_style_of_pane(pane));
     }
 }
 
@@ -113,24 +110,11 @@ void dip_loupe_over_panes(DipUi *ui, DipWindow *window, const DipUiInput panes[D
 }
 
 bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event) {
-    static const struct {
-        int key;
-        int dx, dy;
-    } moves[] = {{DIP_KEYCODE_LEFT, -1, 0},
-                 {DIP_KEYCODE_RIGHT, 1, 0},
-                 {DIP_KEYCODE_UP, 0, -1},
-                 {DIP_KEYCODE_DOWN, 0, 1}};
-    const unsigned command = DIP_MODIFIER_CTRL | DIP_MODIFIER_ALT | DIP_MODIFIER_SUPER;
-    if (event->kind != DIP_EVENT_KEY_DOWN || !dip_loupe_is_on(&state->tools) ||
-        (event->modifiers & command)) {
+    const int step = event->modifiers & DIP_MODIFIER_SHIFT ? 8 : 1;
+    int dx, dy;
+    if (!dip_loupe_is_on(&state->tools) || !dip_ui_arrow(event, &dx, &dy)) {
         return false;
     }
-    for (size_t i = 0; i < sizeof moves / sizeof *moves; ++i) {
-        if ((int)event->key == moves[i].key) {
-            const int step = event->modifiers & DIP_MODIFIER_SHIFT ? 8 : 1;
-            dip_loupe_move(&state->tools, step * moves[i].dx, step * moves[i].dy, width, height);
-            return true;
-        }
-    }
-    return false;
+    dip_loupe_move(&state->tools, step * dx, step * dy, width, height);
+    return true;
 }

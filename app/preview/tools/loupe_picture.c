@@ -5,9 +5,6 @@
 
 #include <math.h>
 
-// Least zoom at which the crop marks samples. At smaller zooms, the marks would hide the pixels.
-enum { MARKS_ZOOM = 16 };
-
 // Greatest width and height of a disc, in pixels. Larger discs are cut off.
 enum { MASK_SIDE = 64 };
 
@@ -61,7 +58,7 @@ static bool draw_crop(const DipLoupe *loupe, int pane, const DipCropContent *con
                                crop->shown.width, crop->shown.height};
         dip_canvas_copy(canvas, shown, &part);
     }
-    if (crop->zoom >= MARKS_ZOOM) {
+    if (crop->zoom >= DIP_LOUPE_MARKS_ZOOM) {
         mark_samples(loupe, pane, content, canvas);
     }
     return true;

@@ -4,7 +4,6 @@
 #include "app/preview/tools/maps.h"
 #include "renderer/scene/mip_debug.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,6 +2,7 @@
 // errors from the error thread.
 #include "app/preview/tools/maps.h"
 
+#include "app/measure/stats/estimate.h"
 #include "app/preview/tools/compare.h"
 
 #include <stdlib.h>
@@ -49,15 +50,6 @@ const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version) {
     return &maps->truth;
 }
 
-// --- what the user chooses -----------------------------------------------------------------------
-
-void dip_maps_choose(DipToolState *tools, DipMap map) {
-    tools->map = map;
-    if (map != DIP_MAP_NONE) {
-        tools->comparison = DIP_COMPARE_SIDE_BY_SIDE;
-    }
-}
-
 // --- measuring work ------------------------------------------------------------------------------
 
 static bool make_arrays(DipMapWork *work, const DipFrame *frame) {
@@ -77,18 +69,6 @@ static bool make_arrays(DipMapWork *work, const DipFrame *frame) {
     return true;
 }
 
-static int compare_numbers(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(const double *values, int count) {
-    double sorted[DIP_MAP_DRAWS];
-    memcpy(sorted, values, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_numbers);
-    return count % 2 ? sorted[count / 2] : (sorted[count / 2 - 1] + sorted[count / 2]) / 2.0;
-}
-
 // Adds a draw of a pane's frame. Keeps its times beside those of the earlier draws. Its counters
 // replace the earlier ones, since each draw of a frame does the same work.
 static bool add_draw(DipMapWork *work, const DipFrame *frame) {
@@ -104,10 +84,10 @@ static bool add_draw(DipMapWork *work, const DipFrame *frame) {
     work->geometry_ms = frame->stages.geometry_ms - frame->tiles.mirrored_times.geometry_ms;
     for (int t = 0; t < tiles; t++) {
         const DipTileRecord *record = &work->records[t];
-        double *draws_ms = work->draws_ms + (size_t)t * DIP_MAP_DRAWS;
+        double *draws_ms = work->draws_ms + (size_t)t * DIP_MAP_DRAWS, scratch[DIP_MAP_DRAWS];
         draws_ms[draw] =
             1e-6 * (double)(record->raster_ns + record->shading_ns + record->resolve_ns);
-        work->ms[t] = median(draws_ms, work->draws);
+        work->ms[t] = dip_percentile_of(draws_ms, work->draws, 0.5, scratch);
     }
     return true;
 }
@@ -166,16 +146,8 @@ static bool prepare_painter(DipMaps *maps, const DipToolsInput *input, const Dip
         return dip_painter_set_quality(maps->painter, quality, &err) &&
                dip_painter_resize(maps->painter, input->width, input->height, &err);
     }
-    const DipRendererDef def = {
-        .pool = session->pool,
-        .isa = session->isa,
-        .width = input->width,
-        .height = input->height,
-        .quality = *quality,
-        .reflection = session->reflection,
-        .force_all_effects = session->force_all_effects,
-    };
-    maps->painter = dip_painter_create(&def, gallery, &err);
+    maps->painter =
+        dip_session_make_painter(session, gallery, quality, input->width, input->height, &err);
     return maps->painter && (gallery || dip_painter_record_tiles(maps->painter, true, &err));
 }
 
@@ -284,6 +256,5 @@ double dip_maps_end(const DipMaps *maps, const DipToolState *tools) {
             greatest = value > greatest ? value : greatest;
         }
     }
-    const double brightness = tools->brightness >= 1.0 ? tools->brightness : 1.0;
-    return dip_map_round_up(greatest) / brightness;
+    return dip_map_round_up(greatest) / dip_max(1, tools->brightness);
 }

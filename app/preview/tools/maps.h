@@ -102,10 +102,6 @@ const DipPixels *dip_maps_truth(DipMaps *maps, uint64_t *version);
 // moves. Returns whether the window must be drawn again. Runs on the thread that draws frames.
 bool dip_maps_update(DipMaps *maps, const DipToolsInput *input);
 
-// Chooses a map, or DIP_MAP_NONE. A map needs both panes side by side, so choosing a map also
-// chooses DIP_COMPARE_SIDE_BY_SIDE.
-void dip_maps_choose(DipToolState *tools, DipMap map);
-
 // --- what is known about the panes ---------------------------------------------------------------
 
 // Returns what was measured of the frame that a pane showed when camera and scene rested last.

@@ -1,6 +1,7 @@
 // Draws the thumbnails of a path with a painter of the strip's own.
 #include "app/preview/tools/strip.h"
 
+#include "app/preview/tools/window.h"
 #include "campaths/campath.h"
 
 #include <string.h>
@@ -19,11 +20,9 @@ void dip_strip_want(DipStrip *strip, int width, int height) {
 }
 
 static DipStripSubject subject_of(const DipStrip *strip, const DipToolsInput *input) {
-    const DipCamTrack *track = &input->session->track;
-    const DipCamCategory *category = &track->categories[track->active];
+    const DipCamCategory *category = dip_camtrack_playing(&input->session->track);
     DipStripSubject subject;
     memset(&subject, 0, sizeof subject); // Clears the padding, which memcmp compares, too.
-    category = category->path ? category : &track->categories[0];
     subject.path = category->path;
     subject.fov_y_deg = category->fov_y_deg;
     subject.scene = input->session->scene;
@@ -50,32 +49,24 @@ static int64_t time_of(const DipStrip *strip, int index) {
     return strip->duration_ns / DIP_STRIP_COUNT * index;
 }
 
-static bool make_painter(DipStrip *strip, const DipToolsInput *input) {
-    DipRendererDef def = dip_renderer_default_def();
-    def.pool = input->session->pool;
-    def.isa = input->session->isa;
-    def.width = strip->subject.width;
-    def.height = strip->subject.height;
-    def.quality = strip->subject.quality;
-    def.reflection = input->session->reflection;
-    strip->painter = strip->painter ? strip->painter : dip_painter_create(&def, NULL, NULL);
-    return strip->painter != NULL;
-}
-
 static bool draw_thumbnail(DipStrip *strip, const DipToolsInput *input) {
+    const DipStripSubject *subject = &strip->subject;
     const int index = strip->drawn;
     DipCanvas *canvas = &strip->pictures[index];
     const int64_t time_ns = time_of(strip, index);
-    DipPose pose = {.fov_y_deg = strip->subject.fov_y_deg};
+    DipPose pose = {.fov_y_deg = subject->fov_y_deg};
     DipFrame frame;
-    dip_campath_sample(strip->subject.path, time_ns, &pose);
-    if (!make_painter(strip, input) ||
-        !dip_canvas_resize(canvas, strip->subject.width, strip->subject.height, NULL) ||
+    dip_campath_sample(subject->path, time_ns, &pose);
+    if (!strip->painter) {
+        strip->painter = dip_session_make_painter(input->session, NULL, &subject->quality,
+                                                  subject->width, subject->height, NULL);
+    }
+    if (!strip->painter || !dip_canvas_resize(canvas, subject->width, subject->height, NULL) ||
         !dip_painter_draw(strip->painter, input->session->scene, &pose, time_ns, &frame, NULL)) {
         return false;
     }
     const DipRect all = {0, 0, frame.width, frame.height};
-    const DipPixels pixels = {frame.rgba8, frame.stride_bytes, frame.width, frame.height};
+    const DipPixels pixels = dip_frame_pixels(&frame);
     dip_canvas_copy(canvas, all, &pixels);
     strip->versions[index] = ++strip->version;
     strip->drawn++;
@@ -109,8 +100,4 @@ DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index) {
         thumbnail.version = strip->versions[index];
     }
     return thumbnail;
-}
-
-int64_t dip_strip_duration_ns(const DipStrip *strip) {
-    return strip->duration_ns;
 }

@@ -38,7 +38,7 @@ typedef struct DipStrip {
     bool wanted;
     int wanted_width;
     int wanted_height;
-    int64_t duration_ns;
+    int64_t duration_ns; // Duration of the path; 0 if the strip has no path.
 } DipStrip;
 
 void dip_strip_free(DipStrip *strip);
@@ -54,8 +54,5 @@ bool dip_strip_update(DipStrip *strip, const DipToolsInput *input);
 // Returns one of the DIP_STRIP_COUNT thumbnails. The thumbnail's picture is valid until the next
 // update.
 DipThumbnail dip_strip_thumbnail(const DipStrip *strip, int index);
-
-// Returns the duration of the path that the strip shows, or 0 if the strip has no path.
-int64_t dip_strip_duration_ns(const DipStrip *strip);
 
 #endif

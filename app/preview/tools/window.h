@@ -28,6 +28,12 @@ typedef struct DipWindow {
     uint64_t truth_version; // Equal versions mean equal pixels. No frame has the same number.
 } DipWindow;
 
+// Returns the pixels of a frame, which the frame still owns.
+static inline DipPixels dip_frame_pixels(const DipFrame *frame) {
+    const DipPixels pixels = {frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+    return pixels;
+}
+
 // Draws the panes' pictures side by side, or as the chosen comparison shows them.
 void dip_compare_pictures(DipUi *ui, DipWindow *window);
 
@@ -50,8 +56,7 @@ void dip_fly_over_panes(DipUi *ui, DipWindow *window, DipUiInput panes[DIP_PANE_
 
 // Lets arrow keys move the loupe by a pixel, or with Shift by 8 pixels, while the loupe is on. Keys
 // with Ctrl, Alt or Super do not move it. Call it for events that neither a control nor the focus
-// took. Returns whether
-// the event moved the loupe.
+// took. Returns whether the event moved the loupe.
 bool dip_loupe_press(DipPreviewState *state, int width, int height, const DipEvent *event);
 
 #endif

@@ -46,7 +46,6 @@ static void open_scene(const char *scene) {
     fake = dip_fake_display_open(&display, WIDTH, HEIGHT);
     const DipPreviewDef preview_def = {.session = &session,
                                        .display = display,
-                                       .flying_speed_m_per_s = 1.0,
                                        .hides_panel = true,
                                        .load_scene_def = no_scene_def};
     preview = dip_preview_create(&preview_def, NULL);

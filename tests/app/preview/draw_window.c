@@ -126,7 +126,6 @@ int main(int argc, char **argv) {
                                        .prices = prices,
                                        .session = &session,
                                        .display = display,
-                                       .flying_speed_m_per_s = 1.0,
                                        .load_scene_def = dip_session_keep_model};
     preview = dip_preview_create(&preview_def, NULL);
     turn();

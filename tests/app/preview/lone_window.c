@@ -32,11 +32,11 @@ int dip_lone_set_up(void **unused) {
     lone.input = (DipViewInput){.width = 1282,
                                 .height = 720,
                                 .scale = 1.0,
-                                .state = &lone.state,
-                                .figures = lone.figures,
-                                .prices = lone.prices,
-                                .tools = lone.tools,
-                                .still = true};
+                                .window = {.state = &lone.state,
+                                           .figures = lone.figures,
+                                           .prices = lone.prices,
+                                           .tools = lone.tools,
+                                           .still = true}};
     return 0;
 }
 

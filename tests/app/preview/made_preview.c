@@ -63,7 +63,6 @@ bool dip_made_create_preview(const DipPreviewDef *def, DipError *err) {
     DipPreviewDef whole = def ? *def : (DipPreviewDef){0};
     whole.session = &made.session;
     whole.display = made.display;
-    whole.flying_speed_m_per_s = 1.0;
     whole.load_scene_def = load_scene_def;
     made.preview = dip_preview_create(&whole, err);
     return made.preview != NULL;

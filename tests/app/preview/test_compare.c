@@ -300,7 +300,7 @@ static void test_position_tells_the_pane_and_the_pixel(void **state) {
     assert_false(dip_compare_pixel_at(&tw.window, PANE_WIDTH, 0, &pane, &x, &y)); // the gap
 }
 
-static void test_brackets_move_the_divider_or_the_gain(void **state) {
+static void test_brackets_act_on_what_shows(void **state) {
     (void)state;
     DipToolState tools = {.comparison = DIP_COMPARE_WIPE, .divider = 0.5};
     assert_true(dip_tool_state_adjust(&tools, -8));
@@ -316,6 +316,13 @@ static void test_brackets_move_the_divider_or_the_gain(void **state) {
     assert_int_equal(tools.gain, 1);
     tools.comparison = DIP_COMPARE_SIDE_BY_SIDE;
     assert_false(dip_tool_state_adjust(&tools, 1));
+    tools.map = DIP_MAP_TIME;
+    assert_true(dip_tool_state_adjust(&tools, 2));
+    assert_int_equal(tools.brightness, 4);
+    tools.comparison = DIP_COMPARE_DIFFERENCE; // The difference hides the map.
+    dip_tool_state_adjust(&tools, 1);
+    assert_int_equal(tools.gain, 2);
+    assert_int_equal(tools.brightness, 4);
 }
 
 // The keys [ and ] and the slider of the tab move the divider by the same step, and change the gain
@@ -398,7 +405,7 @@ int main(void) {
         IN_WINDOW(test_truth_takes_the_current_panes_room),
         IN_WINDOW(test_divider_is_dragged_and_stays_in_the_picture),
         IN_WINDOW(test_position_tells_the_pane_and_the_pixel),
-        cmocka_unit_test(test_brackets_move_the_divider_or_the_gain),
+        cmocka_unit_test(test_brackets_act_on_what_shows),
         IN_WINDOW(test_keys_step_as_the_slider_does),
         IN_WINDOW(test_strip_is_drawn_one_thumbnail_at_a_time),
         IN_WINDOW(test_a_hidden_strip_keeps_no_painter),

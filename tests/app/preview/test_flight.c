@@ -23,6 +23,7 @@ static int set_up(void **unused) {
     dip_lone_set_up(unused);
     pane_height = dip_view_layout(&lone.input).panes[0].height;
     session = (DipSession){.track = lone.track};
+    dip_pilot_enter(&lone.state.flight, &session);
     pose = (DipPose){.position_world = {1, 2, 3}, .orientation = {0, 0, 0, 1}, .fov_y_deg = 60};
     return 0;
 }
@@ -30,7 +31,7 @@ static int set_up(void **unused) {
 // --- driving -------------------------------------------------------------------------------------
 
 static bool turn(void) {
-    const DipPilotTurn pilot = {.session = &session, .speed_m_per_s = 3.0};
+    const DipPilotTurn pilot = {.session = &session};
     return dip_pilot_turn(&lone.state, &pilot, &pose);
 }
 

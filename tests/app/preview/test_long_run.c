@@ -112,10 +112,8 @@ static int set_up(void **state) {
     assert_true(dip_session_open(&run.session, &def, &run.faults));
     run.reference = dip_reference_create(&run.session.scene_def, NULL);
     run.fake = dip_fake_display_open(&run.display, 402, 150);
-    const DipPreviewDef preview = {.session = &run.session,
-                                   .display = run.display,
-                                   .flying_speed_m_per_s = 1.0,
-                                   .load_scene_def = dip_session_keep_model};
+    const DipPreviewDef preview = {
+        .session = &run.session, .display = run.display, .load_scene_def = dip_session_keep_model};
     run.preview = dip_preview_create(&preview, NULL);
     assert_true(run.reference && run.fake && run.preview);
     dip_reference_set_reflection(run.reference, &run.session.reflection);

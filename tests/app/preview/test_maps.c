@@ -145,7 +145,7 @@ static void the_error_map_has_the_colours_of_its_values(void **state) {
     static uint8_t truth[4 * PIXELS], frame[4 * PIXELS];
     static float flip[PIXELS];
     DipMaps *maps = calloc(1, sizeof *maps);
-    DipToolState tools = {.map = DIP_MAP_FLIP, .brightness = 2.0};
+    DipToolState tools = {.map = DIP_MAP_FLIP, .brightness = 2};
     DipErrorReading reading = {.status = DIP_ERROR_STATUS_WORKING};
     DipErrorPictures errors = {
         .version = 1, .width = WIDTH, .height = HEIGHT, .truth_rgba8 = truth, .flip = {flip, NULL}};
@@ -177,10 +177,10 @@ static void the_error_map_has_the_colours_of_its_values(void **state) {
         dip_magma(2.0f * flip[i], rgb);
         check_colour(picture.rgba8 + 4 * i, rgb[0], rgb[1], rgb[2], 3);
     }
-    tools.brightness = 4.0;
+    tools.brightness = 4;
     assert_true(dip_maps_picture(maps, &tools, 0, &shown, 1, &picture, &next));
     assert_true(next != version);
-    tools.brightness = 1.0;
+    tools.brightness = 1;
     assert_true(dip_maps_end(maps, &tools) == 1.0);
     assert_true(dip_maps_truth(maps, &version)->rgba8 == truth);
     dip_maps_free(maps);
@@ -306,7 +306,7 @@ static void times_are_medians_of_several_draws(void **state) {
 
 static void the_pictures_show_the_work(void **state) {
     (void)state;
-    DipToolState tools = {.map = DIP_MAP_SAMPLES, .brightness = 1.0};
+    DipToolState tools = {.map = DIP_MAP_SAMPLES, .brightness = 1};
     const DipFrame *frame = &stage.frame.panes[1];
     const DipPixels shown = {frame->rgba8, frame->stride_bytes, WIDTH, HEIGHT};
     DipPixels picture;
@@ -375,7 +375,7 @@ static void a_chosen_map_lies_over_the_panes(void **state) {
     (void)state;
     dip_tool_window_open(&tw, DIP_TEST_SCENE_fence, WIDTH, HEIGHT, 180);
     tw.state.tools.tab = DIP_TAB_COMPARE;
-    tw.state.tools.brightness = 1.0;
+    tw.state.tools.brightness = 1;
     dip_tool_window_draw(&tw);
     assert_int_equal(bright_pixels(&tw, DIP_PANE_REQUESTED), 0);
     tw.state.tools.map = DIP_MAP_SAMPLES;

@@ -42,6 +42,7 @@ static int set_up(void **unused) {
     state.editor = dip_path_editor_create(NULL);
     assert_non_null(state.editor);
     session = (DipSession){.track = track};
+    dip_pilot_enter(&state.flight, &session);
     pose = (DipPose){.orientation = {0, 0, 0, 1}, .fov_y_deg = 60};
     srand(7);
     return 0;
@@ -63,8 +64,7 @@ static int tear_down(void **unused) {
 // --- driving -------------------------------------------------------------------------------------
 
 static bool turn(int64_t elapsed_ns) {
-    const DipPilotTurn pilot = {
-        .session = &session, .speed_m_per_s = 3.0, .elapsed_ns = elapsed_ns};
+    const DipPilotTurn pilot = {.session = &session, .elapsed_ns = elapsed_ns};
     return dip_pilot_turn(&state, &pilot, &pose);
 }
 

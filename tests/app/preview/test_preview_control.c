@@ -298,7 +298,7 @@ static void quit_ends_the_preview_with_a_reply(void **state) {
     const char *line;
     line_client_line(&client, "{\"id\":9,\"request\":\"quit\"}");
     dip_made_turn();
-    assert_true(dip_preview_has_quit(made.preview));
+    assert_true(dip_preview_state(made.preview)->quit);
     assert_true(line_client_take(&client, &line));
     assert_string_equal(line, "{\"id\":9,\"ok\":true}");
 }
@@ -559,7 +559,7 @@ static void random_lines_do_no_harm(void **state) {
             send_random(&line);
         }
         take_replies(25);
-        assert_false(dip_preview_has_quit(made.preview));
+        assert_false(dip_preview_state(made.preview)->quit);
         line_client_line(&client, "{\"request\":\"unsubscribe\",\"to\":[\"times\",\"errors\","
                                   "\"settings\",\"prices\",\"notices\",\"picks\",\"polls\"]}");
         take_replies(1);

@@ -231,7 +231,7 @@ static void sheets_cover_the_panes_until_closed(void **state) {
         free(covered.rgba8);
         dip_made_press(ways[i].close);
         assert_true(pane_is(DIP_PANE_CURRENT, before));
-        assert_false(dip_preview_has_quit(made.preview));
+        assert_false(dip_preview_state(made.preview)->quit);
     }
 }
 
@@ -360,11 +360,11 @@ static void quitting_ends_without_another_frame(void **state) {
         {.kind = DIP_EVENT_KEY_DOWN, .key = (DipKeycode)'q', .modifiers = DIP_MODIFIER_CTRL}};
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; ++i) {
         dip_made_turn_shown();
-        assert_false(dip_preview_has_quit(made.preview));
+        assert_false(dip_preview_state(made.preview)->quit);
         const int presented = dip_fake_display_present_count(made.fake);
         dip_fake_display_push(made.fake, &ways[i]);
         dip_made_turn();
-        assert_true(dip_preview_has_quit(made.preview));
+        assert_true(dip_preview_state(made.preview)->quit);
         assert_int_equal(dip_fake_display_present_count(made.fake), presented);
         dip_made_tear_down(NULL);
         set_up(NULL);

@@ -179,10 +179,10 @@ static void time_stops_while_paused_or_flying(void **state) {
     Fixture *f = *state;
     dip_preview_advance(&f->state, 1000, 0);
     assert_int_equal(f->state.play_ns, 1000);
-    press(f, DIP_ACTION_STEP_BACK, 0, false);
+    press(f, DIP_ACTION_STEP, -1, false);
     assert_true(f->state.paused);
     assert_int_equal(f->state.play_ns, 0); // time does not go below 0
-    press(f, DIP_ACTION_STEP, 0, false);
+    press(f, DIP_ACTION_STEP, 1, false);
     assert_int_equal(f->state.play_ns, 33333333);
     dip_preview_advance(&f->state, 1000, 0);
     assert_int_equal(f->state.play_ns, 33333333);

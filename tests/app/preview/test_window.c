@@ -50,7 +50,9 @@ static void the_parts_of_the_window_lie_apart(void **unused) {
             for (int i = 0; i < 5 * 4; ++i) {
                 const DipRect window = {0, 0, width, height};
                 const bool open = i & 1, bare = i & 2;
-                const DipLayout l = dip_layout_make(width, height, scales[i / 4], open, bare);
+                const DipToolState set = {
+                    .open = open, .bare = bare, .ui_scale = scales[i / 4], .fixed_scale = true};
+                const DipLayout l = dip_layout_make(width, height, 1.0, &set);
                 for (int p = 0; p < DIP_PANE_COUNT; ++p) {
                     assert_inside(l.panes[p], window);
                     assert_apart(l.panes[p], l.bar);

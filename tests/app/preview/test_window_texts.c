@@ -101,13 +101,13 @@ static void a_map_without_values_has_no_scale(void **unused) {
         lone.tools->maps.key.quality[p] = lone.state.quality[p];
     }
     for (int i = 0; i < SIZES; i++) {
-        lone.input.still = false;
+        lone.input.window.still = false;
         draw(sizes[i][0], sizes[i][1]);
         assert_non_null(dip_shown_text("ms per tile", NULL));
         assert_non_null(dip_shown_text("Measured while the camera rests.", &whole));
         assert_true(whole);
         assert_null(dip_shown_text("Brightness", NULL));
-        lone.input.still = true;
+        lone.input.window.still = true;
         draw(sizes[i][0], sizes[i][1]);
         assert_non_null(dip_shown_text("Measuring.", NULL));
         assert_null(dip_shown_text("Brightness", NULL));
@@ -157,12 +157,12 @@ static void tables_of_maps_wait_while_pictures_move(void **unused) {
         const bool has_table = maps[i].map != DIP_MAP_MIPS && maps[i].map != DIP_MAP_FLIP;
         const bool has_error = maps[i].map == DIP_MAP_FLIP;
         lone.state.tools.map = maps[i].map;
-        lone.input.still = true;
+        lone.input.window.still = true;
         draw(1920, 1080);
         assert_non_null(dip_shown_text(maps[i].value, NULL));
         assert_int_equal(dip_shown_text("3.75 ms", NULL) != NULL, has_table);
         assert_int_equal(dip_shown_text(DIP_WAITING_MARK, NULL) != NULL, has_error);
-        lone.input.still = false;
+        lone.input.window.still = false;
         draw(1920, 1080);
         assert_int_equal(dip_shown_text(maps[i].value, NULL) != NULL, has_error);
         assert_null(dip_shown_text("3.75 ms", NULL));

@@ -96,9 +96,7 @@ void dip_tool_window_draw_frames(DipToolWindow *tw, const char *current, const c
     assert_true(dip_session_draw_pose(&tw->session, &tw->pose, tw->state.play_ns, tw->frame_index,
                                       &tw->frame, NULL));
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
-        const DipFrame *frame = &tw->frame.panes[p];
-        tw->window.frames[p] =
-            (DipPixels){frame->rgba8, frame->stride_bytes, frame->width, frame->height};
+        tw->window.frames[p] = dip_frame_pixels(&tw->frame.panes[p]);
         tw->window.versions[p] = ++tw->version;
     }
 }

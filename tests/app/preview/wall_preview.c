@@ -85,7 +85,6 @@ int dip_wall_set_up(void **unused) {
     const DipPreviewDef def = {.session = &wall.session,
                                .display = wall.display,
                                .reload = wall.reload,
-                               .flying_speed_m_per_s = 1.0,
                                .load_scene_def = dip_session_keep_model};
     wall.preview = dip_preview_create(&def, &err);
     assert_non_null(wall.preview);
@@ -112,7 +111,7 @@ void dip_wall_turn(void) {
     if (!dip_preview_turn(wall.preview, &err)) {
         fail_msg("%s", err.message);
     }
-    assert_false(dip_preview_has_quit(wall.preview));
+    assert_false(dip_preview_state(wall.preview)->quit);
 }
 
 void dip_wall_wait_turn(void) {

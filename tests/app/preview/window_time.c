@@ -68,9 +68,10 @@ static bool set_up(void) {
         dip_view_set_frame(bench.view, p, &frame);
     }
     bench.input = (DipViewInput){
-        .scale = 1.0, .state = &bench.state, .figures = bench.figures, .tools = bench.tools};
+        .scale = 1.0,
+        .window = {.state = &bench.state, .figures = bench.figures, .tools = bench.tools}};
     const bool priced = make_prices();
-    bench.input.prices = bench.prices;
+    bench.input.window.prices = bench.prices;
     return bench.view && bench.tools && priced;
 }
 
@@ -90,7 +91,7 @@ static void change_figures(int i) {
         bench.figures[p] =
             (DipPaneFigures){.ms = 4.0 + p + i % 31 * 0.1, .fps = 60, .times = &bench.timing};
     }
-    bench.input.now_ns = bench.state.play_ns = now_ns;
+    bench.input.window.now_ns = bench.state.play_ns = now_ns;
 }
 
 // Draws a tab and prints its times. Returns false if it cannot be drawn.
@@ -111,7 +112,7 @@ static bool time_tab(int tab, const char *name, int width, int height) {
         if (i >= 0) {
             ms[i] = 1e-6 * (double)(dip_clock_ns() - begin_ns);
         }
-        dip_view_take_damage(bench.view);
+        dip_view_take_damage(bench.view, false);
     }
     const double p95 = dip_percentile(ms, FRAMES, 0.95);
     const double p50 = dip_percentile(ms, FRAMES, 0.50);

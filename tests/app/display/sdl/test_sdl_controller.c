@@ -154,7 +154,7 @@ static void a_virtual_controller_drives_the_tour(void **state) {
     assert_true(differ());
 
     press(SDL_CONTROLLER_BUTTON_BACK); // Takes the focus away.
-    assert_false(dip_preview_has_quit(made.preview));
+    assert_false(dip_preview_state(made.preview)->quit);
     const int path = made.session.track.active;
     press(SDL_CONTROLLER_BUTTON_DPAD_RIGHT);
     assert_int_not_equal(made.session.track.active, path);
@@ -192,7 +192,7 @@ static void a_virtual_controller_drives_the_tour(void **state) {
     press(SDL_CONTROLLER_BUTTON_Y);
     assert_false(now()->manual);
     press(SDL_CONTROLLER_BUTTON_BACK);
-    assert_true(dip_preview_has_quit(made.preview));
+    assert_true(dip_preview_state(made.preview)->quit);
     SDL_JoystickClose(joystick);
 }
 
