@@ -204,7 +204,7 @@ static void a_tip_lists_the_effects_of_a_pane(void **unused) {
     }
     for (int p = 0; p < DIP_PANE_COUNT; ++p) {
         dip_lone_mouse(DIP_EVENT_MOUSE_MOVE, DIP_MOUSE_LEFT, xs[p], 600);
-        lone.input.now_ns += 1000000000;
+        lone.input.window.now_ns += 1000000000;
         draw(1282, 720);
         assert_non_null(dip_shown_text(parts[p], &whole));
         assert_true(whole);
