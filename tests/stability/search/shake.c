@@ -244,6 +244,7 @@ static void shake_camera(SearchScene *made, Random *random) {
                               q[3] - q[0] * r[0] - q[1] * r[1] - q[2] * r[2]};
     memcpy(pose->orientation, turned, sizeof turned);
     pose->fov_y_deg *= 1.0 + random_real(random, -most, most);
+    pose->fov_y_deg = fmin(fmax(pose->fov_y_deg, 1.0), 170.0); // what pictures are drawn with
 }
 
 // Moves the camera by as much as the vertices of some object may move. Where floats are far from 0,
