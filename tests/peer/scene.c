@@ -125,7 +125,8 @@ static bool open_synthetic(DipPeerScene *scene, const DipPeerOptions *options, D
 // -----------------------------------------------------------------------------------------------
 
 // Leaves out of the scene what the peers do not draw: surfaces that show what lies behind them are
-// drawn as opaque ones, and the fixed light shines instead of the scene's lights. Fails with MEMORY.
+// drawn as opaque ones, and the fixed light shines instead of the scene's lights. Fails with
+// MEMORY.
 static bool make_plain(DipPeerScene *scene, DipError *err) {
     DipSceneDef *def = &scene->def;
     const size_t count = (size_t)def->material_count;

@@ -11,7 +11,7 @@
 
 typedef struct DipPeerScene {
     char name[96];
-    DipSceneDef def; // points into `model` or `synthetic`, and to `materials`
+    DipSceneDef def;           // points into `model` or `synthetic`, and to `materials`
     DipMaterialDef *materials; // those of `def`
     uint64_t triangle_count;
     bool all_in_view; // triangles per second make sense only if this is true
