@@ -144,6 +144,13 @@ static int find_sorted(const double *sorted, int count, double value) {
     return low;
 }
 
+static void insert_sorted(double *sorted, int *count, double value) {
+    const int at = find_sorted(sorted, *count, value);
+    memmove(sorted + at + 1, sorted + at, (size_t)(*count - at) * sizeof *sorted);
+    sorted[at] = value;
+    ++*count;
+}
+
 // Returns the median of sorted values without the value at index `without`. If `without` is
 // `count`, no value is left out.
 static double median_of_sorted(const double *sorted, int count, int without) {
@@ -160,10 +167,7 @@ static void running_median(const double *values, int count, int window, bool wit
     int in_window = 0;
     for (int i = -side; i < count; i++) {
         if (i + side < count) {
-            const double value = values[i + side];
-            const int at = find_sorted(sorted, in_window, value);
-            memmove(sorted + at + 1, sorted + at, (size_t)(in_window++ - at) * sizeof *sorted);
-            sorted[at] = value;
+            insert_sorted(sorted, &in_window, values[i + side]);
         }
         if (i - side - 1 >= 0) {
             const int at = find_sorted(sorted, in_window, values[i - side - 1]);
@@ -183,9 +187,7 @@ static void median_of_frames(const double *values, const int *frames, int count,
     for (int first = 0, end; first < count; first = end) {
         int in_frame = 0;
         for (end = first; end < count && frames[end] == frames[first]; end++) {
-            const int at = find_sorted(sorted, in_frame, values[end]);
-            memmove(sorted + at + 1, sorted + at, (size_t)(in_frame++ - at) * sizeof *sorted);
-            sorted[at] = values[end];
+            insert_sorted(sorted, &in_frame, values[end]);
         }
         for (int i = first; i < end; i++) {
             const int left_out =
@@ -195,12 +197,12 @@ static void median_of_frames(const double *values, const int *frames, int count,
     }
 }
 
-// Returns the sum of the distances of the values from their predictions in w->smooth. A very wrong
-// prediction comes from a disturbed visit, so its distance counts for no more than 3 times the
-// median distance.
-static double misses_of(DipTimesWork *w, const double *values, int count) {
+// Returns the sum of the distances of the log ratios from their predictions in w->smooth. A very
+// wrong prediction comes from a disturbed visit, so its distance counts for no more than 3 times
+// the median distance.
+static double misses_of(DipTimesWork *w, int count) {
     for (int i = 0; i < count; i++) {
-        w->rest[i] = fabs(values[i] - w->smooth[i]);
+        w->rest[i] = fabs(w->logs[i] - w->smooth[i]);
     }
     double sum = 0.0;
     const double typical = dip_median(w->rest, count);
@@ -224,7 +226,7 @@ static void choose_smoothing(DipTimesWork *w, int count) {
     for (int k = 0; k < 4 && count > 2; k++) {
         const int window = k == 0 ? windows[0] : windows[k] * per_frame | 1;
         running_median(w->logs, count, window, true, w->smooth, w->of_visit);
-        const double misses = misses_of(w, w->logs, count);
+        const double misses = misses_of(w, count);
         if (misses < 0.97 * least) {
             least = misses;
             w->window = window;
@@ -233,7 +235,7 @@ static void choose_smoothing(DipTimesWork *w, int count) {
     w->repeats = w->times->complete;
     if (!w->repeats && count >= 3 * frames) {
         median_of_frames(w->logs, w->pair_frames, count, true, w->smooth, w->of_visit);
-        w->repeats = misses_of(w, w->logs, count) < 0.97 * least;
+        w->repeats = misses_of(w, count) < 0.97 * least;
     }
     w->window = w->repeats ? 0 : w->window;
 }

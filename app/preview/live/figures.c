@@ -2,6 +2,7 @@
 // panel's lines.
 #include "app/preview/live/figures.h"
 
+#include "app/files/put.h"
 #include "app/measure/stats/estimate.h"
 #include "renderer/base/assert.h"
 
@@ -300,18 +301,15 @@ static bool is_in_scene(const DipEffect *effect) {
 // Appends the titles of all effects that are like the first one, and for effects that did not run
 // the reason.
 static void add_alike(const Effect *first, const Effect *end, char text[DIP_EFFECTS_TEXT_BYTES]) {
-    size_t length = strlen(text);
     const char *before = first->effect.run ? "Effects that ran: " : "";
-    for (const Effect *e = first; e < end && length < DIP_EFFECTS_TEXT_BYTES; e++) {
+    for (const Effect *e = first; e < end; e++) {
         if (is_in_scene(&e->effect) && is_alike(&e->effect, &first->effect)) {
-            length += (size_t)snprintf(text + length, DIP_EFFECTS_TEXT_BYTES - length, "%s%s",
-                                       before, e->title);
+            dip_put_append(text, DIP_EFFECTS_TEXT_BYTES, "%s%s", before, e->title);
             before = ", ";
         }
     }
-    if (length < DIP_EFFECTS_TEXT_BYTES) {
-        snprintf(text + length, DIP_EFFECTS_TEXT_BYTES - length, "%s%s",
-                 first->effect.run ? "" : ": ", first->effect.run ? "" : first->effect.why);
+    if (!first->effect.run) {
+        dip_put_append(text, DIP_EFFECTS_TEXT_BYTES, ": %s", first->effect.why);
     }
 }
 
@@ -327,8 +325,7 @@ void dip_effects_text(const DipEffects *effects, char text[DIP_EFFECTS_TEXT_BYTE
                     !is_in_scene(&list[j].effect) || !is_alike(&list[i].effect, &list[j].effect);
             }
             if (is_first) {
-                const size_t length = strlen(text);
-                snprintf(text + length, DIP_EFFECTS_TEXT_BYTES - length, "%s", length ? "\n" : "");
+                dip_put_append(text, DIP_EFFECTS_TEXT_BYTES, "%s", text[0] ? "\n" : "");
                 add_alike(&list[i], list + EFFECT_COUNT, text);
             }
         }

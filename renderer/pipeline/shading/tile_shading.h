@@ -2,9 +2,9 @@
 // (raster/tile.h) into pixels.
 //
 // A patch is a small group of triangles that join smoothly (pipeline/patch.h). Each distinct patch
-// that a pixel shows becomes one fragment. Fragments are collected per draw and shaded 64 at a
-// time. If a fragment holds all samples of its pixel, its colour becomes the pixel's colour. Other
-// fragments are added to the pixel's sum in 16-bit linear light, weighted by their numbers of
+// that a pixel shows becomes one fragment. Fragments are collected per draw and shaded in
+// batches. If a fragment holds all samples of its pixel, its colour becomes the pixel's colour.
+// Other fragments are added to the pixel's sum in 16-bit linear light, weighted by their numbers of
 // samples. The sums are integers, so the order of fragments does not matter.
 #ifndef DIP_RENDERER_PIPELINE_SHADING_TILE_SHADING_H
 #define DIP_RENDERER_PIPELINE_SHADING_TILE_SHADING_H
