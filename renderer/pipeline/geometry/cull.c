@@ -9,14 +9,15 @@
 #include <math.h>
 #include <string.h>
 
-// Adds a clip-space plane, transformed back to the space that matrix m maps to clip space. Row r of
-// m yields clip coordinate r, so the new plane is a weighted sum of the rows.
-static void transform_plane(const float *m, const float clip[4], DipCullPlanes *planes) {
-    const int p = planes->count++;
-    for (int c = 0; c < 4; c++) {
-        planes->normal[c][p] =
-            clip[0] * m[c] + clip[1] * m[4 + c] + clip[2] * m[8 + c] + clip[3] * m[12 + c];
-    }
+// Floats has one value for each of four planes.
+typedef float Floats __attribute__((vector_size(16)));
+typedef int32_t Ints __attribute__((vector_size(16)));
+
+// Transforms four clip-space planes, with the coordinates clip[0] to clip[3], back to the space
+// that matrix m maps to clip space, and returns coordinate c of the result. Row r of m yields clip
+// coordinate r, so the new planes are weighted sums of the rows.
+static inline Floats transformed(const float *m, const Floats clip[4], int c) {
+    return clip[0] * m[c] + clip[1] * m[4 + c] + clip[2] * m[8 + c] + clip[3] * m[12 + c];
 }
 
 static DipCullPlanes no_planes(void) {
@@ -87,15 +88,21 @@ static NdcRegion ndc_region(const DipPass *pass) {
 }
 
 static DipCullPlanes view_planes(const float *m, const NdcRegion *region) {
+    const Floats sides[4] = {{1.0f, -1.0f, 0.0f, 0.0f},
+                             {0.0f, 0.0f, 1.0f, -1.0f},
+                             {0.0f, 0.0f, 0.0f, 0.0f},
+                             {-region->left, region->right, -region->bottom, region->top}};
+    const Floats depths[4] = {{0.0f, 0.0f, 0.0f, 0.0f}, // and two planes of padding
+                              {0.0f, 0.0f, 0.0f, 0.0f},
+                              {1.0f, -1.0f, 0.0f, 0.0f},
+                              {0.0f, 1.0f, 0.0f, 0.0f}};
     DipCullPlanes planes = no_planes();
-    const float view[DIP_VIEW_PLANES][4] = {{1, 0, 0, -region->left},
-                                            {-1, 0, 0, region->right},
-                                            {0, 1, 0, -region->bottom},
-                                            {0, -1, 0, region->top},
-                                            {0, 0, 1, 0},
-                                            {0, 0, -1, 1}};
-    for (int p = 0; p < DIP_VIEW_PLANES; p++) {
-        transform_plane(m, view[p], &planes);
+    planes.count = DIP_VIEW_PLANES;
+    for (int c = 0; c < 4; c++) {
+        const Floats at_sides = transformed(m, sides, c);
+        const Floats at_depths = transformed(m, depths, c);
+        memcpy(planes.normal[c], &at_sides, sizeof at_sides);
+        memcpy(planes.normal[c] + 4, &at_depths, (DIP_VIEW_PLANES - 4) * sizeof(float));
     }
     return planes;
 }
@@ -103,7 +110,14 @@ static DipCullPlanes view_planes(const float *m, const NdcRegion *region) {
 static DipCullPlanes pass_planes(const DipPass *pass, const NdcRegion *region, const float *m) {
     DipCullPlanes planes = view_planes(m, region);
     for (int p = 0; p < pass->clip_plane_count; p++) {
-        transform_plane(m, pass->clip_planes[p], &planes);
+        Floats clip[4];
+        for (int r = 0; r < 4; r++) {
+            clip[r] = (Floats){pass->clip_planes[p][r]};
+        }
+        for (int c = 0; c < 4; c++) {
+            planes.normal[c][planes.count] = transformed(m, clip, c)[0];
+        }
+        planes.count++;
     }
     return planes;
 }
@@ -136,10 +150,6 @@ static double magnitude(double v) {
 
 // Relative tolerance. It covers float rounding in the matrix, the planes and the vertex shader.
 #define ROUNDING 1e-5f
-
-// Floats has one value for each of four planes.
-typedef float Floats __attribute__((vector_size(16)));
-typedef int32_t Ints __attribute__((vector_size(16)));
 
 static Floats magnitudes(Floats v) {
     return (Floats)((Ints)v & INT32_MAX);

@@ -276,6 +276,16 @@ static void clear_others(DipShaderGuard *guard, DipFragmentBatch *batch) {
     guard->written_derivatives = derivatives | own;
 }
 
+// Sets to 0 what the shader may leave unset, as far as it may be read (shader.h).
+static void clear_outputs(DipFragmentBatch *batch) {
+    const size_t count =
+        (size_t)(batch->count + DIP_BATCH_ALIGN - 1) / DIP_BATCH_ALIGN * DIP_BATCH_ALIGN;
+    for (int c = 0; c < 3; c++) {
+        memset(batch->colour[c], 0, count * sizeof *batch->colour[c]);
+    }
+    memset(batch->keep, 0, count * sizeof *batch->keep);
+}
+
 void dip_shader_guard_bind(DipShaderGuard *guard, uint32_t draw, int varying_count,
                            int derivative_count, DipFragmentBatch *batch) {
     static const DipSampler no_samplers[DIP_MAX_SAMPLERS];
@@ -284,8 +294,7 @@ void dip_shader_guard_bind(DipShaderGuard *guard, uint32_t draw, int varying_cou
     guard->varying_count = varying_count;
     guard->derivative_count = derivative_count;
     clear_others(guard, batch);
-    memset(batch->colour, 0, sizeof batch->colour);
-    memset(batch->keep, 0, sizeof batch->keep);
+    clear_outputs(batch);
     batch->samplers = guard->draw->samplers ? guard->draw->samplers : no_samplers;
     batch->uniforms = guard->draw->uniforms;
     batch->sample_colour = sample_colour;
