@@ -82,11 +82,14 @@ VEC_INLINE Vf mean_alpha(const DipTexture *texture, ReadMode mode, const ReadLis
     return mode.anisotropic ? total / count : total;
 }
 
+// Prefetches the alphas of every fourth lane of `count` listed reads. A cache line has 32 of them,
+// so neighbouring fragments mostly read the same one.
 VEC_INLINE void prefetch_alpha(const DipTexture *texture, const ReadList *list, int first,
                                int count) {
-    const int32_t *index = list->index[first];
-    for (int i = 0; i < count * DIP_LANES; i++) {
-        __builtin_prefetch(texture->alpha + (uint32_t)index[i]);
+    for (int i = first; i < first + count; i++) {
+        for (int lane = 0; lane < DIP_LANES; lane += 4) {
+            __builtin_prefetch(texture->alpha + (uint32_t)list->index[i][lane]);
+        }
     }
 }
 

@@ -161,15 +161,21 @@ VEC_INLINE void filter_vector(const Read *read, ReadMode mode, const ReadList *l
     }
 }
 
-// Prefetches the texels of `count` listed reads. Each quad lies in one or two cache lines, mostly
-// in one; only the first one is prefetched. Without anisotropy, neighbouring fragments mostly read
-// the same line, so only every second lane is prefetched, in the pattern of a chessboard if the
-// fragments are those of a sub-block.
+// Returns whether the quad of a lane is prefetched. Without anisotropy, neighbouring fragments
+// mostly read the same cache line, so that a part of the lanes is enough: a chessboard, if the
+// fragments are those of a sub-block, and in the coarser level one lane in eight. far: the coarser
+// level.
+VEC_INLINE bool prefetches_lane(ReadMode mode, bool far, int lane) {
+    return mode.anisotropic || (far ? lane % 8 == lane / 8 : (lane + lane / 4) % 2 == 0);
+}
+
+// Prefetches the texels of `count` listed reads, the first of which is in the finer level. Each
+// quad lies in one or two cache lines, mostly in one; only the first one is prefetched.
 VEC_INLINE void prefetch_texels(const DipTexture *texture, ReadMode mode, const ReadList *list,
                                 int first, int count) {
     for (int i = first; i < first + count; i++) {
         for (int lane = 0; lane < DIP_LANES; lane++) {
-            if (mode.anisotropic || (lane + lane / 4) % 2 == 0) {
+            if (prefetches_lane(mode, i > first, lane)) {
                 __builtin_prefetch(texture->texels + (uint32_t)list->index[i][lane]);
             }
         }
