@@ -485,6 +485,20 @@ VEC_INLINE int vu_compress(uint32_t *out, unsigned bits, Vu v) {
 #endif
 }
 
+// Returns the lowest bits of `bits`, one after the other, at the places of the bits that are set in
+// `places`, and 0 elsewhere.
+VEC_INLINE unsigned bits_at(unsigned bits, unsigned places) {
+#if VEC_AVX2 || VEC_AVX512
+    return _pdep_u32(bits, places);
+#else
+    unsigned spread = 0;
+    for (; places; places &= places - 1, bits >>= 1) {
+        spread |= places & -places & (0u - (bits & 1));
+    }
+    return spread;
+#endif
+}
+
 // The reverse of vu_compress: returns the values at p, one after the other, in the lanes whose bits
 // are set in `bits`, and 0 in the other lanes. The function may read a whole vector's length from p
 // on.

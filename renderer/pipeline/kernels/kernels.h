@@ -40,8 +40,13 @@ typedef struct DipTriangle DipTriangle;           // raster/triangle.h
       (const DipSetupTarget *target, const DipSetupBatch *batch, DipTriangle *triangles,           \
        float *planes))                                                                             \
     /* Draws a triangle's coverage and depth in a tile that its box meets. clip NULL: opaque. */   \
+    /* Otherwise, its last fragments may wait in clip->queue, and those that wait already are of   \
+     */                                                                                            \
+    /* the same draw. */                                                                           \
     X(void, dip_kernel_draw_triangle,                                                              \
       (DipTile * tile, const DipTriangle *triangle, uint32_t id, const DipClipTest *clip))         \
+    /* Runs the clip test on the fragments that wait, at least one, and draws what it keeps. */    \
+    X(void, dip_kernel_clip, (DipTile * tile, const DipClipTest *clip))                            \
     /* Draws a triangle of an ordered draw in a tile that its box meets. */                        \
     X(void, dip_kernel_draw_ordered,                                                               \
       (DipTile * tile, const DipTriangle *triangle, uint32_t index, DipOrdered *ordered))          \

@@ -120,13 +120,6 @@ VEC_INLINE int corner_of(const Region *region, int n) {
            (region->x + n % REGION) * DIP_SUB_BLOCK;
 }
 
-// Returns the number of a sub-block (dip_sub_block_number).
-VEC_INLINE int number_of(const Region *region, int n) {
-    const int x = region->x + n % REGION;
-    const int y = region->y + n / REGION;
-    return (y / 2 * DIP_TILE_BLOCKS + x / 2) * 4 + y % 2 * 2 + x % 2;
-}
-
 // Fills in the cover of sub-block n, which lies wholly inside the triangle: every sample is
 // covered, and every fragment is shaded at the centre of its pixel.
 VEC_INLINE void cover_whole_sub_block(const Region *region, int n, int sample_count, Cover *cover) {
@@ -250,7 +243,7 @@ static unsigned test_stencil(const StencilTest *test, uint8_t *values, unsigned 
 // Returns the depth of sample s in each lane of vector v, with the draw's bias.
 VEC_INLINE Vf ordered_depth(const OrderedTriangle *tri, OrderedKind kind, float corner, int v,
                             int s) {
-    const Vf depth = depth_lanes(&tri->in, corner, v, s);
+    const Vf depth = depth_lanes(&tri->in.depths, corner, v, s);
     if (kind != KIND_GENERAL || !tri->biased) {
         return depth;
     }
@@ -405,7 +398,7 @@ VEC_INLINE void merge_sub_block(DipOrdered *ordered, const OrderedTriangle *tri,
 // so their fragments are stored as whole vectors.
 VEC_INLINE void merge_whole_single(DipOrdered *ordered, const OrderedTriangle *tri,
                                    const Region *region, int n, DipTile *tile) {
-    const int first = touch_sub_block(tile, region, n, 1);
+    const int first = touch_sub_block(tile, number_of(region, (unsigned)n), 1);
     const unsigned visible = pass_nearer(tri, KIND_SINGLE, tile->depth + first, region->depth[n], 0,
                                          0xffff, ordered->state->keep_depth);
     if (!visible || !ordered->shades) {
@@ -431,18 +424,6 @@ VEC_INLINE void merge_whole_single(DipOrdered *ordered, const OrderedTriangle *t
     }
 }
 
-// Alpha to coverage: takes from each pixel's covered samples those that come after the first
-// *kept in `order`. kept: a byte per pixel that waits.
-static void drop_samples(Cover *cover, const uint8_t *kept, const uint8_t *order,
-                         int sample_count) {
-    for (unsigned left = cover->pixels; left; left &= left - 1) {
-        const unsigned pixel = left & -left;
-        for (int i = *kept++; i < sample_count; i++) {
-            cover->samples[order[i]] &= (uint16_t)~pixel;
-        }
-    }
-}
-
 // Runs the clip test on the fragments that wait for it, and merges those that it keeps.
 static void flush_clip_queue(ClipQueue *queue, DipOrdered *ordered, const OrderedTriangle *tri,
                              const DipTriangle *triangle, DipTile *tile) {
@@ -453,17 +434,17 @@ static void flush_clip_queue(ClipQueue *queue, DipOrdered *ordered, const Ordere
     for (int i = 0; i < list->count; i += DIP_LANES) {
         vi_store((int32_t *)list->triangle + i, vi_splat((int32_t)tri->index));
     }
-    const uint8_t *kept = ordered->clip->test(ordered->clip->context, triangle);
+    const uint8_t *bytes = ordered->clip->test(ordered->clip->context, triangle->draw);
+    Kept kept;
+    find_kept(bytes, list->count, &kept);
     for (int i = 0; i < queue->count; i++) {
         Cover *cover = &queue->waiting[i];
-        unsigned keep = 0;
         if (ordered->clip->order) {
-            drop_samples(cover, kept, ordered->clip->order, tile->pattern->count);
+            drop_samples(cover->samples, cover->pixels, bytes, ordered->clip->order,
+                         tile->pattern->count);
+            bytes += __builtin_popcount(cover->pixels);
         }
-        for (unsigned left = cover->pixels; left; left &= left - 1) {
-            keep |= left & -left & (0u - (*kept++ != 0));
-        }
-        merge_sub_block(ordered, tri, KIND_GENERAL, tile, cover, keep);
+        merge_sub_block(ordered, tri, KIND_GENERAL, tile, cover, take_kept(&kept, cover->pixels));
     }
     list->count = 0;
     queue->count = 0;
@@ -497,8 +478,9 @@ VEC_INLINE void merge_region(ClipQueue *queue, DipOrdered *ordered, const Ordere
             continue;
         }
         Cover cover;
-        cover.first = touch_sub_block(tile, region, n, sample_count);
-        cover.number = number_of(region, n);
+        const unsigned number = number_of(region, (unsigned)n);
+        cover.first = touch_sub_block(tile, number, sample_count);
+        cover.number = (int)number;
         if (region->inside >> n & 1 && !(kind == KIND_GENERAL && tri->wireframe)) {
             cover_whole_sub_block(region, n, sample_count, &cover);
         } else {

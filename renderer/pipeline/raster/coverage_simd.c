@@ -34,7 +34,7 @@ VEC_INLINE Mask hiding_lanes(const DipTile *tile, int at, Vf old, Vf depth, uint
 // depths. inside: the triangle covers all samples of the sub-block.
 VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
                                int sample_count, bool near_to_far, DipTile *tile, uint32_t id) {
-    const int first = touch_sub_block(tile, region, n, sample_count);
+    const int first = touch_sub_block(tile, number_of(region, (unsigned)n), sample_count);
     float *const depths = tile->depth + first;
     int32_t *const ids = (int32_t *)tile->id + first;
     for (int v = 0; v < VECTORS; v++) {
@@ -42,7 +42,7 @@ VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bo
         for (int s = 0; s < sample_count; s++) {
             const int at = s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const Vf old = vf_load(depths + at);
-            const Vf depth = depth_lanes(in, region->depth[n], v, s);
+            const Vf depth = depth_lanes(&in->depths, region->depth[n], v, s);
             Mask hiding = hiding_lanes(tile, first + at, old, depth, in->draw, near_to_far);
             if (!inside) {
                 hiding = hiding & covered_lanes(in, &edges, s, sample_count);
@@ -73,27 +73,11 @@ VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_c
 
 // --- alpha-clipped triangles -------------------------------------------------------------------
 
-// A sub-block whose fragments wait for the clip test (DipClipTest).
-typedef struct Waiting {
-    int first;       // index of the sub-block's first value in the tile's arrays
-    float depth;     // depth at the sub-block's corner
-    uint16_t pixels; // pixels that have a fragment in the list, in the list's order
-    uint8_t samples; // samples that the fragments may hold, one bit each
-    uint16_t visible[DIP_MAX_SAMPLES]; // the pixels in which each sample is visible
-} Waiting;
-
-// The sub-blocks of the current triangle that wait for the clip test. Their fragments are in
-// clip->list.
-typedef struct ClipQueue {
-    const DipClipTest *clip;
-    int count; // number of sub-blocks
-    Waiting waiting[DIP_FRAGMENT_BATCH];
-} ClipQueue;
-
 // Fills in the masks of a waiting sub-block, and finds where each fragment is shaded: at the centre
 // of its pixel if the triangle covers all samples, otherwise at the first covered sample.
 VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, const DipTile *tile,
-                               int sample_count, Waiting *waiting, Vi positions[VECTORS]) {
+                               int sample_count, DipWaitingSubBlock *waiting,
+                               Vi positions[VECTORS]) {
     const DipSamplePattern *pattern = tile->pattern;
     const bool near_to_far = tile->near_to_far != NULL;
     const float corner = waiting->depth;
@@ -108,8 +92,9 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
         for (int s = sample_count - 1; s >= 0; s--) {
             const int at = waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const Mask covered = covered_lanes(in, &edges, s, sample_count);
-            const Mask hiding = hiding_lanes(tile, at, vf_load(tile->depth + at),
-                                             depth_lanes(in, corner, v, s), in->draw, near_to_far);
+            const Mask hiding =
+                hiding_lanes(tile, at, vf_load(tile->depth + at),
+                             depth_lanes(&in->depths, corner, v, s), in->draw, near_to_far);
             const unsigned visible = mask_bits(covered & hiding) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
             pixels |= visible;
@@ -117,24 +102,26 @@ VEC_INLINE void test_sub_block(const InTile *in, const Region *region, int n, co
             positions[v] =
                 vi_select(covered, sub_position(pattern->x[s], pattern->y[s]), positions[v]);
         }
+        if (sample_count == 1) {
+            positions[v] = sub_position(128, 128); // all samples of the pixel are covered
+            continue;
+        }
         const Mask centre = mask_from_bits(whole);
         positions[v] = vi_select(centre, sub_position(128, 128), positions[v]);
     }
     waiting->pixels = (uint16_t)pixels;
-    waiting->samples = (uint8_t)((1u << sample_count) - 1);
+    waiting->samples = (uint16_t)((1u << sample_count) - 1);
 }
 
 // Fills in the masks of a waiting sub-block for the samples of one group. Each fragment is shaded
 // at the centroid of the group's samples that the triangle covers.
 VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const DipTile *tile,
-                           const DipSampleGroups *groups, int group, Waiting *waiting,
+                           const DipSampleGroups *groups, int group, DipWaitingSubBlock *waiting,
                            Vi positions[VECTORS]) {
     const bool near_to_far = tile->near_to_far != NULL;
     const unsigned samples = groups->samples[group];
     unsigned pixels = 0;
-    for (unsigned left = samples; left; left &= left - 1) {
-        waiting->visible[__builtin_ctz(left)] = 0;
-    }
+    memset(waiting->visible, 0, sizeof waiting->visible);
     for (int v = 0; v < VECTORS; v++) {
         const PixelEdges edges = pixel_edges(in, region, n, v);
         Vi held = vi_splat(0);
@@ -144,7 +131,7 @@ VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const 
             const Mask covered = covered_lanes(in, &edges, s, DIP_MAX_SAMPLES);
             const Mask hiding =
                 hiding_lanes(tile, at, vf_load(tile->depth + at),
-                             depth_lanes(in, waiting->depth, v, s), in->draw, near_to_far);
+                             depth_lanes(&in->depths, waiting->depth, v, s), in->draw, near_to_far);
             const unsigned visible = mask_bits(covered & hiding) << (v * DIP_LANES);
             waiting->visible[s] |= (uint16_t)visible;
             pixels |= visible;
@@ -153,119 +140,149 @@ VEC_INLINE void test_group(const InTile *in, const Region *region, int n, const 
         positions[v] = vi_gather(groups->centroid, held) << DIP_POSITION_SUB_X;
     }
     waiting->pixels = (uint16_t)pixels;
-    waiting->samples = (uint8_t)samples;
+    waiting->samples = (uint16_t)samples;
 }
 
-// Stores the visible samples of the pixels in `keep`.
-VEC_INLINE void keep_sub_block(const InTile *in, DipTile *tile, const Waiting *waiting,
-                               unsigned keep, uint32_t id) {
+// Stores the visible samples of the pixels in `keep`. depths: those of the sub-block's triangle.
+VEC_INLINE void keep_sub_block(const Depths *depths, DipTile *tile,
+                               const DipWaitingSubBlock *waiting, unsigned keep) {
     for (unsigned left = waiting->samples; left; left &= left - 1) {
         const int s = __builtin_ctz(left);
         for (int v = 0; v < VECTORS; v++) {
             const int at = waiting->first + s * DIP_BLOCK_PIXELS + v * DIP_LANES;
             const unsigned bits = (waiting->visible[s] & keep) >> (v * DIP_LANES);
             const Mask mask = mask_from_bits(bits & VEC_ALL_LANES);
-            vf_store_lanes(tile->depth + at, mask, depth_lanes(in, waiting->depth, v, s),
+            vf_store_lanes(tile->depth + at, mask, depth_lanes(depths, waiting->depth, v, s),
                            vf_load(tile->depth + at));
-            vi_store_lanes((int32_t *)tile->id + at, mask, vi_splat((int32_t)id));
+            vi_store_lanes((int32_t *)tile->id + at, mask,
+                           vi_splat((int32_t)waiting->triangle + 1));
         }
     }
 }
 
-static uint64_t block_bit(const DipTile *tile, const Waiting *waiting) {
+static uint64_t block_bit(const DipTile *tile, const DipWaitingSubBlock *waiting) {
     return (uint64_t)1 << (waiting->first / (tile->pattern->count * DIP_BLOCK_PIXELS));
 }
 
-// Alpha to coverage: takes from each pixel's visible samples those that come after the first
-// kept[i] in `order`. kept: a byte per fragment of the sub-block. Returns the pixels that may keep
-// a sample.
-static unsigned drop_samples(Waiting *waiting, const uint8_t *kept, const uint8_t *order,
-                             int sample_count) {
-    unsigned keep = 0;
-    for (unsigned left = waiting->pixels; left; left &= left - 1) {
-        const unsigned pixel = left & -left;
-        const int count = *kept++;
-        keep |= count ? pixel : 0;
-        for (int i = count; i < sample_count; i++) {
-            waiting->visible[order[i]] &= (uint16_t)~pixel;
-        }
-    }
-    return keep;
-}
-
-// Runs the clip test on the waiting fragments, and stores the fragments that the test keeps.
-static void flush_clip_queue(ClipQueue *queue, const InTile *in, const DipTriangle *triangle,
-                             DipTile *tile, uint32_t id) {
-    DipFragmentList *list = queue->clip->list;
+void DIP_KERNEL(dip_kernel_clip)(DipTile *tile, const DipClipTest *clip) {
+    DipClipQueue *queue = clip->queue;
+    DipFragmentList *list = clip->list;
     for (int i = list->count; i % DIP_BATCH_ALIGN; i++) {
         list->position[i] = list->position[list->count - 1];
+        list->triangle[i] = list->triangle[list->count - 1];
     }
-    for (int i = 0; i < list->count; i += DIP_LANES) {
-        vi_store((int32_t *)list->triangle + i, vi_splat((int32_t)id - 1));
-    }
-    const uint8_t *kept = queue->clip->test(queue->clip->context, triangle);
+    const uint8_t *bytes = clip->test(clip->context, queue->draw);
+    Kept kept;
+    find_kept(bytes, list->count, &kept);
+    const DipTriangle *triangle = NULL; // whose depths these are
+    Depths depths;
     for (int i = 0; i < queue->count; i++) {
-        unsigned keep = 0;
-        if (queue->clip->order) {
-            keep = drop_samples(&queue->waiting[i], kept, queue->clip->order, tile->pattern->count);
-            kept += __builtin_popcount(queue->waiting[i].pixels);
-        } else {
-            for (unsigned left = queue->waiting[i].pixels; left; left &= left - 1) {
-                keep |= left & -left & (0u - (*kept++ != 0)); // without a branch
-            }
+        DipWaitingSubBlock *waiting = &queue->waiting[i];
+        const unsigned keep = take_kept(&kept, waiting->pixels);
+        if (clip->order) {
+            drop_samples(waiting->visible, waiting->pixels, bytes, clip->order,
+                         tile->pattern->count);
+            bytes += __builtin_popcount(waiting->pixels);
         }
-        if (keep) {
-            keep_sub_block(in, tile, &queue->waiting[i], keep, id);
-            if (queue->clip->groups) {
-                tile->grouped |= block_bit(tile, &queue->waiting[i]);
-            }
+        if (!keep) {
+            continue;
+        }
+        if (triangle != &clip->triangles[waiting->triangle]) {
+            triangle = &clip->triangles[waiting->triangle];
+            set_depths(&depths, triangle, tile->pattern);
+        }
+        keep_sub_block(&depths, tile, waiting, keep);
+        if (clip->groups) {
+            tile->grouped |= block_bit(tile, waiting);
         }
     }
     list->count = 0;
     queue->count = 0;
+    queue->blocks = 0;
+    memset(queue->pixels, 0, sizeof queue->pixels);
 }
 
-// Adds the pixels of sub-block n in which the triangle is visible to the queue. If there are sample
-// groups, only the samples of `group` count.
-VEC_INLINE void queue_sub_block(ClipQueue *queue, const InTile *in, const Region *region, int n,
-                                int group, int sample_count, DipTile *tile) {
-    const DipSampleGroups *groups = queue->clip->groups;
-    DipFragmentList *list = queue->clip->list;
-    Waiting *waiting = &queue->waiting[queue->count];
-    waiting->first = touch_sub_block(tile, region, n, sample_count);
-    waiting->depth = region->depth[n];
-    Vi positions[VECTORS];
-    if (sample_count > 1 && groups) {
-        test_group(in, region, n, tile, groups, group, waiting, positions);
-    } else {
-        test_sub_block(in, region, n, tile, sample_count, waiting, positions);
+// Where the current triangle is visible in a region.
+typedef struct Visible {
+    unsigned sub_blocks; // bit n: in sub-block n
+    DipWaitingSubBlock waiting[REGION_SUB_BLOCKS];
+    Vi positions[REGION_SUB_BLOCKS][VECTORS];
+} Visible;
+
+// Finds where a triangle is visible in a region. If there are sample groups, only the samples of
+// `group` count. Returns whether earlier triangles wait for the clip test in some of these pixels.
+VEC_INLINE bool find_visible(const DipClipTest *clip, const InTile *in, const Region *region,
+                             int group, int sample_count, DipTile *tile, Visible *visible) {
+    const uint16_t *pixels_that_wait = clip->queue->pixels;
+    unsigned shared = 0;
+    visible->sub_blocks = 0;
+    for (unsigned left = region->reached; left; left &= left - 1) {
+        const int n = __builtin_ctz(left);
+        DipWaitingSubBlock *found = &visible->waiting[n];
+        const unsigned number = number_of(region, (unsigned)n);
+        found->first = touch_sub_block(tile, number, sample_count);
+        found->depth = region->depth[n];
+        if (sample_count > 1 && clip->groups) {
+            test_group(in, region, n, tile, clip->groups, group, found, visible->positions[n]);
+        } else {
+            test_sub_block(in, region, n, tile, sample_count, found, visible->positions[n]);
+        }
+        visible->sub_blocks |= (unsigned)(found->pixels != 0) << n;
+        shared |= found->pixels & pixels_that_wait[number];
     }
-    if (!waiting->pixels) {
-        return;
+    return shared != 0;
+}
+
+// Adds sub-block n to the queue, and its fragments to the list.
+VEC_INLINE void queue_sub_block(DipClipQueue *queue, DipFragmentList *list, const Visible *visible,
+                                const Region *region, int n, int sample_count, uint32_t id) {
+    const DipWaitingSubBlock *found = &visible->waiting[n];
+    DipWaitingSubBlock *waiting = &queue->waiting[queue->count++];
+    waiting->triangle = id - 1;
+    waiting->first = found->first;
+    waiting->depth = found->depth;
+    waiting->pixels = found->pixels;
+    waiting->samples = found->samples;
+    for (int s = 0; s < sample_count; s++) {
+        waiting->visible[s] = found->visible[s];
     }
-    const int corner = (region->y + n / REGION) * DIP_SUB_BLOCK * DIP_TILE +
-                       (region->x + n % REGION) * DIP_SUB_BLOCK;
+    const int corner = (region->y + (int)((unsigned)n / REGION)) * DIP_SUB_BLOCK * DIP_TILE +
+                       (region->x + (int)((unsigned)n % REGION)) * DIP_SUB_BLOCK;
+    int count = list->count;
     for (int v = 0; v < VECTORS; v++) {
-        const unsigned pixels = waiting->pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
+        const unsigned pixels = found->pixels >> (v * DIP_LANES) & VEC_ALL_LANES;
         const Vi pixel = (vi_load(lane_y + v * DIP_LANES) << DIP_POSITION_Y) +
                          (vi_load(lane_x + v * DIP_LANES) + corner);
-        list->count +=
-            vu_compress(list->position + list->count, pixels, (Vu)(positions[v] | pixel));
+        vu_store(list->triangle + count, vu_splat(id - 1));
+        count +=
+            vu_compress(list->position + count, pixels, (Vu)(visible->positions[n][v] | pixel));
     }
-    queue->count++;
+    list->count = count;
 }
 
-VEC_INLINE void clip_region(ClipQueue *queue, const InTile *in, const Region *region,
-                            const DipTriangle *triangle, int sample_count, DipTile *tile,
-                            uint32_t id) {
-    const int group_count = queue->clip->groups ? queue->clip->groups->count : 1;
-    for (unsigned left = region->reached; left; left &= left - 1) {
-        for (int group = 0; group < group_count; group++) {
-            if (queue->clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
-                flush_clip_queue(queue, in, triangle, tile, id);
-            }
-            queue_sub_block(queue, in, region, __builtin_ctz(left), group, sample_count, tile);
+VEC_INLINE void clip_region(const DipClipTest *clip, const InTile *in, const Region *region,
+                            int sample_count, DipTile *tile, uint32_t id) {
+    const int group_count = sample_count > 1 && clip->groups ? clip->groups->count : 1;
+    uint16_t queued[REGION_SUB_BLOCKS] = {0}; // pixels; groups share pixels, but no samples
+    for (int group = 0; group < group_count; group++) {
+        Visible visible;
+        while (find_visible(clip, in, region, group, sample_count, tile, &visible)) {
+            DIP_KERNEL(dip_kernel_clip)(tile, clip);
         }
+        for (unsigned left = visible.sub_blocks; left; left &= left - 1) {
+            const int n = __builtin_ctz(left);
+            if (clip->list->count > DIP_FRAGMENT_BATCH - DIP_SUB_BLOCK_PIXELS) {
+                DIP_KERNEL(dip_kernel_clip)(tile, clip);
+            }
+            queue_sub_block(clip->queue, clip->list, &visible, region, n, sample_count, id);
+            queued[n] |= visible.waiting[n].pixels;
+        }
+    }
+    for (unsigned left = region->reached; left; left &= left - 1) {
+        const unsigned n = (unsigned)__builtin_ctz(left);
+        const unsigned number = number_of(region, n);
+        clip->queue->pixels[number] |= queued[n];
+        clip->queue->blocks |= (uint64_t)(queued[n] != 0) << number / 4;
     }
 }
 
@@ -407,9 +424,11 @@ static void find_bound(DipTile *tile, int block, int sample_count) {
     tile->drawn[block] = 0;
 }
 
-// Whether all samples of the blocks in a box are nearer than the depth z. Finds bounds anew if at
-// least `wait` triangles have been drawn in their blocks.
-VEC_INLINE bool hidden(DipTile *tile, const Box *box, float z, int wait, int sample_count) {
+// Whether all samples of the blocks in a box are nearer than the depth z. Finds bounds anew if
+// enough triangles have been drawn in their blocks.
+VEC_INLINE bool hidden(DipTile *tile, const DipClipTest *clip, const Box *box, float z,
+                       int sample_count) {
+    const int wait = clip ? CLIPPED_WAIT : OPAQUE_WAIT;
     for (int y = box->y0 / 2; y <= box->y1 / 2; y++) {
         for (int x = box->x0 / 2; x <= box->x1 / 2; x++) {
             const int block = y * DIP_TILE_BLOCKS + x;
@@ -418,6 +437,9 @@ VEC_INLINE bool hidden(DipTile *tile, const Box *box, float z, int wait, int sam
             }
             if (tile->drawn[block] < wait || !(tile->touched >> block & 1)) {
                 return false;
+            }
+            if (clip && clip->queue->blocks >> block & 1) {
+                DIP_KERNEL(dip_kernel_clip)(tile, clip);
             }
             find_bound(tile, block, sample_count);
             if (z >= tile->bound[block]) {
@@ -446,8 +468,7 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
                              const DipClipTest *clip, int sample_count, bool near_to_far) {
     const Box box = box_of(triangle, tile);
     if (near_to_far) {
-        if ((clip || sample_count > 1) &&
-            hidden(tile, &box, triangle->z_max, clip ? CLIPPED_WAIT : OPAQUE_WAIT, sample_count)) {
+        if ((clip || sample_count > 1) && hidden(tile, clip, &box, triangle->z_max, sample_count)) {
             return;
         }
         count_drawn(tile, &box);
@@ -459,9 +480,6 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
     }
     InTile in;
     set_up_in_tile(&in, triangle, tile);
-    ClipQueue queue;
-    queue.clip = clip;
-    queue.count = 0;
     for (int y = box.y0; y <= box.y1; y += REGION) {
         for (int x = box.x0; x <= box.x1; x += REGION) {
             Region region;
@@ -470,20 +488,17 @@ VEC_INLINE void draw_in_tile(DipTile *tile, const DipTriangle *triangle, uint32_
             }
             tile->sub_blocks_accepted += (uint64_t)__builtin_popcount(region.inside);
             if (clip) {
-                clip_region(&queue, &in, &region, triangle, sample_count, tile, id);
+                clip_region(clip, &in, &region, sample_count, tile, id);
             } else {
                 draw_region(&in, &region, sample_count, near_to_far, tile, id);
             }
         }
     }
-    if (clip && queue.count) {
-        flush_clip_queue(&queue, &in, triangle, tile, id);
-    }
 }
 
 static void draw_clipped(DipTile *tile, const DipTriangle *triangle, uint32_t id,
                          const DipClipTest *clip) {
-    clip->list->count = 0;
+    clip->queue->draw = triangle->draw;
     if (tile->pattern->count == 1) {
         draw_in_tile(tile, triangle, id, clip, 1, tile->near_to_far != NULL);
     } else {

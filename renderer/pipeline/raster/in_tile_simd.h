@@ -46,14 +46,19 @@ typedef struct Edge {
     int32_t sample[DIP_SAMPLE_ROOM]; // value at each sample, relative to the value at sample 0
 } Edge;
 
+// The depths of one triangle.
+typedef struct Depths {
+    Vf lane[VECTORS]; // at the pixels of a sub-block, relative to its corner
+    Vf min;
+    Vf max;
+    float sample[DIP_SAMPLE_ROOM]; // at each sample, relative to the pixel's corner
+} Depths;
+
 // One triangle within the tile.
 typedef struct InTile {
     uint32_t draw; // the triangle's draw
     Edge edge[3];
-    Vf depth_lane[VECTORS]; // depth at the pixels of a sub-block, relative to its corner
-    Vf depth_min;
-    Vf depth_max;
-    float depth_sample[DIP_SAMPLE_ROOM]; // depth at each sample, relative to the pixel's corner
+    Depths depths;
 } InTile;
 
 // Sixteen sub-blocks of the tile. Arrays and bits are in lane order.
@@ -129,20 +134,20 @@ VEC_INLINE void set_edge(InTile *in, int i, const DipTriangle *triangle, const D
     }
 }
 
-VEC_INLINE void set_depth(InTile *in, const DipTriangle *triangle,
-                          const DipSamplePattern *pattern) {
+VEC_INLINE void set_depths(Depths *depths, const DipTriangle *triangle,
+                           const DipSamplePattern *pattern) {
     const float dx = (float)triangle->z_dx;
     const float dy = (float)triangle->z_dy;
-    in->depth_min = vf_splat(triangle->z_min);
-    in->depth_max = vf_splat(triangle->z_max);
+    depths->min = vf_splat(triangle->z_min);
+    depths->max = vf_splat(triangle->z_max);
     for (int v = 0; v < VECTORS; v++) {
-        in->depth_lane[v] = vf_splat(dx) * vf_from_int(vi_load(lane_x + v * DIP_LANES)) +
-                            vf_splat(dy) * vf_from_int(vi_load(lane_y + v * DIP_LANES));
+        depths->lane[v] = vf_splat(dx) * vf_from_int(vi_load(lane_x + v * DIP_LANES)) +
+                          vf_splat(dy) * vf_from_int(vi_load(lane_y + v * DIP_LANES));
     }
     for (int s = 0; s < pattern->count; s += DIP_LANES) {
         const Vf x = vf_from_int(vi_load_bytes(pattern->x + s)) * (1.0f / 256.0f);
         const Vf y = vf_from_int(vi_load_bytes(pattern->y + s)) * (1.0f / 256.0f);
-        vf_store(in->depth_sample + s, vf_splat(dx) * x + vf_splat(dy) * y);
+        vf_store(depths->sample + s, vf_splat(dx) * x + vf_splat(dy) * y);
     }
 }
 
@@ -222,17 +227,22 @@ VEC_INLINE void clear_block(DipTile *tile, int block, int sample_count) {
     tile->touched |= (uint64_t)1 << block;
 }
 
-// Returns the index of sub-block n's first value in the tile's arrays. If this is the first use of
+// Returns the number of sub-block n of a region in the tile (dip_sub_block_number).
+VEC_INLINE unsigned number_of(const Region *region, unsigned n) {
+    const unsigned x = (unsigned)region->x + n % REGION;
+    const unsigned y = (unsigned)region->y + n / REGION;
+    return (y / 2 * DIP_TILE_BLOCKS + x / 2) * 4 + y % 2 * 2 + x % 2;
+}
+
+// Returns the index of a sub-block's first value in the tile's arrays. If this is the first use of
 // the 8x8 block that the sub-block lies in, the function first clears the block.
-VEC_INLINE int touch_sub_block(DipTile *tile, const Region *region, int n, int sample_count) {
-    const unsigned x = (unsigned)(region->x + n % REGION);
-    const unsigned y = (unsigned)(region->y + n / REGION);
-    const unsigned block = y / 2 * DIP_TILE_BLOCKS + x / 2;
-    const unsigned quarter = y % 2 * 2 + x % 2;
+VEC_INLINE int touch_sub_block(DipTile *tile, unsigned number, int sample_count) {
+    const unsigned block = number / 4;
     if (!(tile->touched >> block & 1)) {
         clear_block(tile, (int)block, sample_count);
     }
-    return (int)block * sample_count * DIP_BLOCK_PIXELS + (int)(quarter * DIP_SUB_BLOCK_PIXELS);
+    return (int)(block * (unsigned)sample_count * DIP_BLOCK_PIXELS +
+                 number % 4 * DIP_SUB_BLOCK_PIXELS);
 }
 
 // One vector of edge values at sample 0 of DIP_LANES pixels of a sub-block.
@@ -259,9 +269,9 @@ VEC_INLINE Mask covered_lanes(const InTile *in, const PixelEdges *edges, int s, 
 }
 
 // Returns the depth at sample s in each lane of vector v.
-VEC_INLINE Vf depth_lanes(const InTile *in, float corner, int v, int s) {
-    const Vf depth = (vf_splat(corner) + in->depth_lane[v]) + vf_splat(in->depth_sample[s]);
-    return vf_min(vf_max(depth, in->depth_min), in->depth_max);
+VEC_INLINE Vf depth_lanes(const Depths *depths, float corner, int v, int s) {
+    const Vf depth = (vf_splat(corner) + depths->lane[v]) + vf_splat(depths->sample[s]);
+    return vf_min(vf_max(depth, depths->min), depths->max);
 }
 
 // Encodes a point within a pixel as part of a fragment's position (tile_shading.h).
@@ -269,13 +279,58 @@ VEC_INLINE Vi sub_position(int sub_x, int sub_y) {
     return vi_splat(sub_x << DIP_POSITION_SUB_X | sub_y << DIP_POSITION_SUB_Y);
 }
 
+// --- the clip test -----------------------------------------------------------------------------
+
+// Which fragments of a batch the clip test keeps, in the list's order. They are taken sub-block by
+// sub-block.
+typedef struct Kept {
+    uint16_t bits[DIP_FRAGMENT_BATCH / 16 + 1]; // one bit per fragment
+    unsigned next;                              // the first fragment that has not been taken
+} Kept;
+
+// bytes: a byte per fragment; 0 means that the surface is cut away.
+VEC_INLINE void find_kept(const uint8_t *bytes, int count, Kept *kept) {
+    kept->next = 0;
+    for (int i = 0; i < count; i += 16) {
+        unsigned bits = 0;
+        for (int v = 0; v < VECTORS; v++) {
+            const Vi lanes = vi_load_bytes(bytes + i + v * DIP_LANES);
+            bits |= mask_bits(vi_lt(vi_splat(0), lanes)) << (v * DIP_LANES);
+        }
+        kept->bits[i / 16] = (uint16_t)bits;
+        kept->bits[i / 16 + 1] = 0;
+    }
+}
+
+// Takes the fragments of a sub-block, which lie in these pixels. Returns the pixels that are kept.
+VEC_INLINE unsigned take_kept(Kept *kept, unsigned pixels) {
+    const unsigned word = kept->next / 16;
+    const unsigned bits = kept->bits[word] | (unsigned)kept->bits[word + 1] << 16;
+    const unsigned at = kept->next % 16;
+    kept->next += (unsigned)__builtin_popcount(pixels);
+    return bits_at(bits >> at, pixels);
+}
+
+// Alpha to coverage: takes from the samples of each pixel those that come after the first bytes[i]
+// in `order`. samples: the pixels in which each sample is visible. bytes: one per pixel.
+static inline void drop_samples(uint16_t *samples, unsigned pixels, const uint8_t *bytes,
+                                const uint8_t *order, int sample_count) {
+    for (; pixels; pixels &= pixels - 1) {
+        for (int i = *bytes++; i < sample_count; i++) {
+            samples[order[i]] &= (uint16_t) ~(pixels & -pixels);
+        }
+    }
+}
+
+// --- a triangle in a tile ----------------------------------------------------------------------
+
 // Prepares a triangle for a tile.
 VEC_INLINE void set_up_in_tile(InTile *in, const DipTriangle *triangle, const DipTile *tile) {
     in->draw = triangle->draw;
     for (int i = 0; i < 3; i++) {
         set_edge(in, i, triangle, tile);
     }
-    set_depth(in, triangle, tile->pattern);
+    set_depths(&in->depths, triangle, tile->pattern);
 }
 
 // Fills in the region of the tile whose first sub-block is (x, y), counted in sub-blocks, as far as

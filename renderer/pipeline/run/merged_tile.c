@@ -117,6 +117,7 @@ static void draw_triangle(void *context, uint32_t index) {
         dip_tile_worker_cover(worker, index);
         return;
     }
+    dip_tile_worker_end_clip(worker);
     if (!worker->merging) {
         const bool plain_left = worker->merge.plain_left;
         dip_merged_tile_begin(worker);
@@ -153,6 +154,7 @@ void dip_merged_tile_draw(DipTileWorker *worker, int index) {
     worker->merge.draw = -1;
     worker->merge.plain_left = false;
     dip_geometry_visit(worker->pass->geometry, index, draw_triangle, &visit);
+    dip_tile_worker_end_clip(worker);
     if (!worker->merging) {
         dip_plain_tile_end(worker, begin_ns);
         return;

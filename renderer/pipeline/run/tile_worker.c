@@ -96,15 +96,15 @@ static void flush_whole_list(DipTileShading *shading, uint32_t draw) {
     list->count = 0;
 }
 
-const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle) {
+const uint8_t *dip_tile_worker_clip(void *context, uint32_t draw_index) {
     DipTileWorker *worker = context;
     const DipTilePass *pass = worker->pass;
-    const DipDraw *draw = &pass->pass->draws[triangle->draw];
+    const DipDraw *draw = &pass->pass->draws[draw_index];
     DipFragmentBatch *batch = &worker->clip_batch;
     pass->kernels->dip_kernel_interpolate(&worker->shading.input, &worker->clip_list,
                                           draw->clip_varying_count, 0, batch);
     set_front(pass, draw, &worker->clip_list, batch, &worker->clip_batch_has_front);
-    dip_shader_guard_bind(&worker->clip_guard, triangle->draw, draw->clip_varying_count,
+    dip_shader_guard_bind(&worker->clip_guard, draw_index, draw->clip_varying_count,
                           draw->clip_varying_count, batch);
     draw->clip_shader(batch);
     worker->tile_record.counters.fragments_clip_tested += (uint64_t)worker->clip_list.count;
@@ -118,19 +118,34 @@ static int sample_group_count(const DipTilePass *pass) {
 
 DipClipTest dip_tile_worker_clip_test(DipTileWorker *worker, const DipSampleGroups *groups) {
     const DipTilePass *pass = worker->pass;
-    return (DipClipTest){&worker->clip_list, dip_tile_worker_clip, worker, groups,
-                         pass->pass->alpha_to_coverage ? pass->pattern->order : NULL};
+    return (DipClipTest){
+        .list = &worker->clip_list,
+        .test = dip_tile_worker_clip,
+        .context = worker,
+        .groups = groups,
+        .order = pass->pass->alpha_to_coverage ? pass->pattern->order : NULL,
+        .queue = &worker->clip_queue,
+        .triangles = pass->geometry->triangles,
+    };
+}
+
+void dip_tile_worker_end_clip(DipTileWorker *worker) {
+    if (worker->clip_queue.count) {
+        worker->pass->kernels->dip_kernel_clip(&worker->tile, &worker->clip);
+    }
 }
 
 void dip_tile_worker_cover(DipTileWorker *worker, uint32_t index) {
     const DipTilePass *pass = worker->pass;
     const DipTriangle *triangle = &pass->geometry->triangles[index];
-    const DipClipTest clip = dip_tile_worker_clip_test(worker, pass->groups);
     const bool clipped = pass->pass->draws[triangle->draw].clip_shader != NULL;
     worker->tile_record.counters.clip_sample_groups +=
         clipped ? (uint64_t)sample_group_count(pass) : 0;
+    if (triangle->draw != worker->clip_queue.draw) {
+        dip_tile_worker_end_clip(worker);
+    }
     pass->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1,
-                                            clipped ? &clip : NULL);
+                                            clipped ? &worker->clip : NULL);
 }
 
 static void draw_triangle(void *context, uint32_t index) {
@@ -211,6 +226,7 @@ static void begin_tile(DipTileWorker *worker, int index) {
     shading->samples = 0;
     worker->batch.work = (DipShaderWork){0};
     worker->clip_batch.work = (DipShaderWork){0};
+    worker->clip = dip_tile_worker_clip_test(worker, pass->groups);
     set_destination(worker);
 }
 
@@ -245,6 +261,7 @@ void dip_plain_tile_end(DipTileWorker *worker, int64_t begin_ns) {
 static void draw_plain_tile(DipTileWorker *worker, int index) {
     const int64_t begin_ns = dip_clock_ns();
     dip_geometry_visit(worker->pass->geometry, index, draw_triangle, worker);
+    dip_tile_worker_end_clip(worker);
     dip_plain_tile_end(worker, begin_ns);
 }
 

@@ -47,6 +47,8 @@ typedef struct DipTileWorker {
     DipShaderGuard guard;      // of `batch`
     DipShaderGuard clip_guard; // of `clip_batch`
     DipFragmentList clip_list;
+    DipClipQueue clip_queue;
+    DipClipTest clip; // of plain draws
     DipEncodedBatch encoded;
     uint16_t *light16;  // a tile's light for a DipTileDone; exists once a pass has handed light
     DipMergeTile merge; // its arrays exist once a merged pass has been drawn
@@ -79,15 +81,19 @@ int dip_tile_worker_shade(DipTileWorker *worker, uint32_t draw, DipFragmentList 
 // Removes the first `count` fragments of a list.
 void dip_fragment_list_drop(DipFragmentList *list, int count);
 
-// Covers a triangle of a plain draw.
+// Covers a triangle of a plain draw. If it is alpha-clipped, its last fragments wait for the clip
+// test until dip_tile_worker_end_clip.
 void dip_tile_worker_cover(DipTileWorker *worker, uint32_t triangle);
+
+// Runs the clip test on the fragments that wait for it. Until then, the tile lacks them.
+void dip_tile_worker_end_clip(DipTileWorker *worker);
 
 // Returns the clip test of the worker's pass, whose context is the worker. groups: see DipClipTest.
 DipClipTest dip_tile_worker_clip_test(DipTileWorker *worker, const DipSampleGroups *groups);
 
-// Runs the clip shader of a triangle's draw on the fragments in worker->clip_list, as DipClipTest
-// describes. context: the worker.
-const uint8_t *dip_tile_worker_clip(void *context, const DipTriangle *triangle);
+// Runs a draw's clip shader on the fragments in worker->clip_list, as DipClipTest describes.
+// context: the worker.
+const uint8_t *dip_tile_worker_clip(void *context, uint32_t draw);
 
 // Collects the fragments of all covered samples, and shades them.
 void dip_tile_worker_shade_tile(DipTileWorker *worker);

@@ -4,10 +4,8 @@
 //
 //   test_coverage [--triangles N]
 #include "renderer/base/assert.h"
-#include "renderer/pipeline/geometry/setup.h"
-#include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/raster/fragments.h"
-#include "renderer/catalogue/oracle.h"
+#include "tests/renderer/pipeline/cover_tile.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,18 +17,10 @@
 
 #include <cmocka.h>
 
-enum {
-    SEED = 90125,
-    TARGET_WIDTH = 3 * DIP_TILE - 21, // not a multiple of the tile size, so the last tiles are cut
-    TARGET_HEIGHT = 2 * DIP_TILE - 6,
-};
+enum { SEED = 90125 };
 
 static const int sample_counts[] = {1, 2, 4, 6, 8};
 static long triangle_count = 60000;
-
-// The depths and triangle numbers of a tile, as the pipeline lays them out.
-static _Alignas(64) float depth[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
-static _Alignas(64) uint32_t ids[DIP_BLOCKS * DIP_BLOCK_PIXELS * DIP_MAX_SAMPLES];
 
 typedef struct Case {
     const DipSamplePattern *pattern;
@@ -39,75 +29,20 @@ typedef struct Case {
     DipOracleKind kind;
 } Case;
 
-// Makes the target for set-up. Fills `samples` with the pattern's sample positions; the target
-// points to them.
-static DipSetupTarget target_of(const DipSamplePattern *pattern, DipSamplePositions *samples) {
-    samples->count = 0;
-    dip_sample_positions_add(samples, pattern);
-    DipSetupTarget target = {.width = TARGET_WIDTH,
-                             .height = TARGET_HEIGHT,
-                             .region_last = {TARGET_WIDTH - 1, TARGET_HEIGHT - 1},
-                             .plane_stride = DIP_PLANES_ALIGN,
-                             .samples = samples,
-                             .cull = DIP_CULL_NONE,
-                             .sample_min = {255, 255}};
-    for (int s = 0; s < pattern->count; s++) {
-        const uint8_t at[2] = {pattern->x[s], pattern->y[s]};
-        for (int i = 0; i < 2; i++) {
-            target.sample_min[i] = at[i] < target.sample_min[i] ? at[i] : target.sample_min[i];
-            target.sample_max[i] = at[i] > target.sample_max[i] ? at[i] : target.sample_max[i];
-        }
+// Draws the case's triangle. A triangle that is culled or does not reach the tile is not drawn.
+static void draw_fast(const DipKernels *kernels, const Case *c, DipClipTest *clip, DipTile *tile) {
+    DipTriangle triangle;
+    *tile = cover_tile(c->pattern, &c->region);
+    if (!cover_set_up(kernels, c->pattern, &c->triangle, 0.5f, &c->region, &triangle)) {
+        return;
     }
-    return target;
-}
-
-static DipOracleRegion random_tile(Random *random) {
-    DipOracleRegion region = {random_int(random, 0, 2) * DIP_TILE,
-                              random_int(random, 0, 1) * DIP_TILE, DIP_TILE, DIP_TILE};
-    if (region.x0 + region.width > TARGET_WIDTH) {
-        region.width = TARGET_WIDTH - region.x0;
+    if (clip) {
+        clip->triangles = &triangle;
     }
-    if (region.y0 + region.height > TARGET_HEIGHT) {
-        region.height = TARGET_HEIGHT - region.y0;
+    kernels->dip_kernel_draw_triangle(tile, &triangle, 1, clip);
+    if (clip && clip->queue->count) {
+        kernels->dip_kernel_clip(tile, clip);
     }
-    return region;
-}
-
-// Returns true if the triangle's box of pixels overlaps the tile. The pipeline gives a tile only
-// such triangles.
-static bool meets(const DipTriangle *triangle, const DipOracleRegion *region) {
-    return triangle->x0 < region->x0 + region->width && triangle->x1 >= region->x0 &&
-           triangle->y0 < region->y0 + region->height && triangle->y1 >= region->y0;
-}
-
-// Draws the case's triangle. Returns false if the triangle is culled or does not reach the tile.
-static bool draw_fast(const DipKernels *kernels, const Case *c, const DipClipTest *clip,
-                      DipTile *tile) {
-    static DipScreenBatch screen;
-    static uint8_t corner[3][DIP_BATCH_ALIGN];
-    for (int i = 0; i < 3; i++) {
-        screen.x[i] = c->triangle.x[i];
-        screen.y[i] = c->triangle.y[i];
-        screen.z[i] = 0.5f;
-        screen.rw[i] = 1.0f;
-        corner[i][0] = (uint8_t)i;
-    }
-    const uint32_t patch[DIP_BATCH_ALIGN] = {0};
-    const DipSetupBatch batch = {
-        .count = 1, .corner = {corner[0], corner[1], corner[2]}, .patch = patch, .screen = &screen};
-    DipSamplePositions samples;
-    const DipSetupTarget target = target_of(c->pattern, &samples);
-    DipTriangle triangle[1 + DIP_SETUP_EXCESS];
-    float surface[(1 + DIP_SETUP_EXCESS) * DIP_PLANES_ALIGN];
-    *tile = (DipTile){.x0 = c->region.x0, .y0 = c->region.y0, .pattern = c->pattern};
-    tile->depth = depth;
-    tile->id = ids;
-    if (!kernels->dip_kernel_setup(&target, &batch, triangle, surface) ||
-        !meets(triangle, &c->region)) {
-        return false;
-    }
-    kernels->dip_kernel_draw_triangle(tile, triangle, 1, clip);
-    return true;
 }
 
 // Reads the tile's covered samples into masks, in the format of dip_oracle_cover.
@@ -119,7 +54,7 @@ static void read_masks(const Case *c, const DipTile *tile, uint8_t *masks) {
             const int y = block / DIP_TILE_BLOCKS * DIP_BLOCK + dip_block_y(i);
             for (int s = 0; s < c->pattern->count && x < c->region.width && y < c->region.height;
                  s++) {
-                const uint32_t id = ids[dip_tile_index(tile, block, s) + i];
+                const uint32_t id = tile->id[dip_tile_index(tile, block, s) + i];
                 uint8_t *mask = &masks[y * c->region.width + x];
                 *mask = (uint8_t)(*mask | id << s);
             }
@@ -155,7 +90,7 @@ static void coverage_is_exact(void **state) {
     for (long t = 0; t < triangle_count; t++) {
         Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
         c.kind = (DipOracleKind)(t / 5 % DIP_ORACLE_KINDS);
-        c.region = random_tile(&random);
+        c.region = cover_random_tile(&random);
         c.triangle = dip_oracle_make(c.kind, &random, c.pattern, &c.region,
                                      DIP_GUARD_BAND_PX * DIP_SUBPIXELS - 1);
         covered[c.kind] += dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
@@ -218,7 +153,7 @@ static void fans_cover_every_sample_exactly_once(void **state) {
     Random random = {SEED + 1};
     for (int t = 0; t < 400; t++) {
         Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
-        c.region = random_tile(&random);
+        c.region = cover_random_tile(&random);
         const size_t pixels = (size_t)c.region.width * (size_t)c.region.height;
         const uint8_t all = (uint8_t)((1u << c.pattern->count) - 1u);
         DipOracleTriangle fan[DIP_ORACLE_FAN];
@@ -259,8 +194,8 @@ static bool chequer_keeps(int x, int y) {
     return ((x ^ y) & 1) != 0 || (x & 4) != 0;
 }
 
-static const uint8_t *ask_chequer(void *context, const DipTriangle *triangle) {
-    (void)triangle;
+static const uint8_t *ask_chequer(void *context, uint32_t draw) {
+    (void)draw;
     Chequer *chequer = context;
     const DipOracleRegion *region = &chequer->c->region;
     const DipSamplePattern *pattern = chequer->c->pattern;
@@ -293,11 +228,12 @@ static void the_clip_test_runs_once_per_pixel_and_decides_what_is_drawn(void **s
     static uint8_t expected[DIP_TILE * DIP_TILE];
     static uint8_t found[DIP_TILE * DIP_TILE];
     static Chequer chequer;
+    static DipClipQueue queue;
     Random random = {SEED + 2};
     for (int t = 0; t < 2000; t++) {
         Case c = {.pattern = dip_sample_pattern(sample_counts[t % 5])};
         c.kind = (DipOracleKind)(t / 5 % DIP_ORACLE_KINDS);
-        c.region = random_tile(&random);
+        c.region = cover_random_tile(&random);
         c.triangle = dip_oracle_make(c.kind, &random, c.pattern, &c.region,
                                      DIP_GUARD_BAND_PX * DIP_SUBPIXELS - 1);
         dip_oracle_cover(&c.triangle, c.pattern, &c.region, expected);
@@ -309,7 +245,8 @@ static void the_clip_test_runs_once_per_pixel_and_decides_what_is_drawn(void **s
             memset(&chequer, 0, sizeof chequer);
             chequer.c = &c;
             chequer.covered = expected;
-            const DipClipTest clip = {&chequer.list, ask_chequer, &chequer, NULL, NULL};
+            DipClipTest clip = {
+                .list = &chequer.list, .test = ask_chequer, .context = &chequer, .queue = &queue};
             DipTile tile;
             draw_fast(dip_kernels((DipIsa)isa), &c, &clip, &tile);
             read_masks(&c, &tile, found);

@@ -132,6 +132,8 @@ static int call_for_number(SimdCall call, const void *const in[4]) {
         return vi_sum(VI(0));
     case SIMD_hi_mask_bits:
         return (int)hi_mask_bits(HI(0));
+    case SIMD_bits_at:
+        return (int)bits_at(NUMBER(unsigned, 0), NUMBER(unsigned, 1));
     default:
         return 0;
     }

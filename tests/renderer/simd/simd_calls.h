@@ -44,6 +44,7 @@
     X(vi_greatest)                                                                                 \
     X(vi_sum)                                                                                      \
     X(hi_mask_bits)                                                                                \
+    X(bits_at)                                                                                     \
     /* Functions that read and write memory. */                                                    \
     X(vf_gather)                                                                                   \
     X(vi_gather)                                                                                   \

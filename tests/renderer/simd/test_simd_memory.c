@@ -157,6 +157,23 @@ static void check_packing(const SimdSet *set, Random *random) {
     }
 }
 
+static void check_bits(const SimdSet *set, Random *random) {
+    const unsigned bits = random_bits(random, SIMD_LANES_MAX);
+    const unsigned places = random_bits(random, SIMD_LANES_MAX);
+    unsigned expected = 0;
+    for (int i = 0, next = 0; i < SIMD_LANES_MAX; i++) {
+        if (places >> i & 1) {
+            expected |= (bits >> next++ & 1) << i;
+        }
+    }
+    assert_int_equal(simd_call(set, SIMD_bits_at, &bits, &places, NULL, NULL), expected);
+}
+
+static void bits_go_to_their_places(void **state) {
+    (void)state;
+    simd_for_each_set(check_bits);
+}
+
 static void lanes_are_packed_without_gaps_and_expanded_again(void **state) {
     (void)state;
     simd_for_each_set(check_packing);
@@ -219,6 +236,7 @@ int main(void) {
         cmocka_unit_test(loads_fill_every_lane),
         cmocka_unit_test(only_lanes_of_the_mask_are_stored),
         cmocka_unit_test(lanes_are_packed_without_gaps_and_expanded_again),
+        cmocka_unit_test(bits_go_to_their_places),
         cmocka_unit_test(rows_of_words_are_stored_at_a_stride),
         cmocka_unit_test(quads_are_summed_and_weights_put_in_their_order),
     };
