@@ -196,12 +196,25 @@ VEC_INLINE unsigned hi_mask_bits(Hi m) {
 #endif
 }
 
-// Returns base[index[i]] in lane i.
+#if VEC_AVX512 || VEC_AVX2
+VEC_INLINE __m128i vec_load_four(const int32_t *base, const int32_t index[4]) {
+    const __m128i one = _mm_cvtsi32_si128(base[index[0]]);
+    const __m128i two = _mm_insert_epi32(one, base[index[1]], 1);
+    return _mm_insert_epi32(_mm_insert_epi32(two, base[index[2]], 2), base[index[3]], 3);
+}
+#endif
+
+// Returns base[index[i]] in lane i. With AMD's Zen 4, single loads of so few lanes take less time
+// than the instruction that gathers them.
 VEC_INLINE Hi hi_gather(const int32_t *base, Hi index) {
+#if VEC_AVX512 || VEC_AVX2
+    _Alignas(VEC_HALF_BYTES) int32_t at[DIP_HALF_LANES];
+    memcpy(at, &index, sizeof at);
+#endif
 #if VEC_AVX512
-    return (Hi)_mm256_i32gather_epi32(base, (__m256i)index, 4);
+    return (Hi)_mm256_set_m128i(vec_load_four(base, at + 4), vec_load_four(base, at));
 #elif VEC_AVX2
-    return (Hi)_mm_i32gather_epi32(base, (__m128i)index, 4);
+    return (Hi)vec_load_four(base, at);
 #else
     Hi v = {0};
     for (int i = 0; i < DIP_HALF_LANES; i++) {

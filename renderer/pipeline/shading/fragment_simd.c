@@ -3,12 +3,12 @@
 #include "renderer/base/pages.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/shading/tile_shading.h"
-#include "renderer/simd/pairs.h"
+#include "renderer/simd/quads.h"
 #include "renderer/simd/srgb.h"
 
 // If the fragments of a vector lie on at most this many triangles, the planes are read triangle by
-// triangle. Otherwise they are gathered lane by lane.
-enum { FEW_TRIANGLES = 4 };
+// triangle. Otherwise they are read lane by lane.
+enum { FEW_TRIANGLES = 2 };
 
 // Planes are prefetched for vectors in which more neighbouring lanes than these have different
 // triangles.
@@ -17,16 +17,16 @@ enum { FEW_CHANGES = DIP_LANES * 3 / 4 };
 // triangles would fill the first-level cache.
 enum { PREFETCHED = 64 };
 
-enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 1 };
+enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 3 };
 
 // The planes of a vector of fragments (triangle.h): those of a few triangles, each with the lanes
-// that it has, or floats that were gathered for each lane. Lanes that no triangle from number 1 on
-// has belong to number 0.
+// that it has, or floats that were read for each lane. Lanes that no triangle from number 1 on has
+// belong to number 0.
 typedef struct VaryingPlanes {
-    int count; // number of triangles; 0: the floats were gathered
+    int count; // number of triangles; 0: the floats were read for each lane
     const float *triangle[FEW_TRIANGLES];
     Mask lanes[FEW_TRIANGLES];
-    const Vf *rows; // gathered: rows[i] has float i of each lane's triangle
+    const Vf *rows; // if count is 0: rows[i] has float i of each lane's triangle
 } VaryingPlanes;
 
 // The value of a plane at the fragments' positions, and its derivatives along x and y.
@@ -57,16 +57,19 @@ VEC_INLINE void find_triangles(const DipShadingInput *input, const uint32_t *tri
     planes->count = left ? 0 : planes->count;
 }
 
-// Gathers `count` floats of the planes of each lane's triangle.
-VEC_INLINE void gather_rows(const DipShadingInput *input, const uint32_t *triangle, int count,
-                            Vf *rows) {
-    const Vi ids = vi_load((const int32_t *)triangle);
+// Loads `count` floats of the planes of each lane's triangle. Planes are padded, so the quads that
+// hold these floats may be read whole.
+VEC_INLINE void load_rows(const DipShadingInput *input, const uint32_t *triangle, int count,
+                          Vf *rows) {
     const uint32_t *planes = (const uint32_t *)(const void *)input->planes;
-    const Vi offset = vi_pair_order(ids * input->plane_stride);
-    for (int f = 0; f < count; f += 2) { // planes are padded, so one float more may be read
-        const VuPair pair = vu_gather_pairs(planes + f, offset);
-        rows[f] = (Vf)vu_pair_left(pair);
-        rows[f + 1] = (Vf)vu_pair_right(pair);
+    _Alignas(64) int32_t offset[DIP_LANES];
+    vi_store(offset, vi_load((const int32_t *)triangle) * input->plane_stride);
+    for (int f = 0; f < count; f += 4) {
+        Vu quads[4];
+        for (int k = 0; k < 4; k++) {
+            quads[k] = vu_load_quads(planes + f, 1, offset, k);
+        }
+        vf_split_quads(quads, rows + f);
     }
 }
 
@@ -165,16 +168,10 @@ void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipF
             interpolate(&planes, 1, x, y, varying_count, value_only_count, i, batch);
         } else if (planes.count == 2) {
             interpolate(&planes, 2, x, y, varying_count, value_only_count, i, batch);
-        } else if (planes.count) {
-            for (int n = planes.count; n < FEW_TRIANGLES; n++) {
-                planes.triangle[n] = planes.triangle[0];
-                planes.lanes[n] = mask_from_bits(0);
-            }
-            interpolate(&planes, FEW_TRIANGLES, x, y, varying_count, value_only_count, i, batch);
         } else {
             Vf rows[MAX_ROWS];
             planes.rows = rows;
-            gather_rows(input, list->triangle + i, dip_plane_floats(varying_count), rows);
+            load_rows(input, list->triangle + i, dip_plane_floats(varying_count), rows);
             interpolate(&planes, 0, x, y, varying_count, value_only_count, i, batch);
         }
     }

@@ -6,7 +6,7 @@
 set -eu
 cd "$1"
 # Parts of functions, which only some instruction sets have.
-parts="vec_load_quad vf_interleave vf_join_halves srgb_curve"
+parts="vec_load_quad vec_load_four vf_interleave vf_join_halves srgb_curve"
 functions=$(sed -n 's/^VEC_INLINE [A-Za-z0-9_ ]* \**\([a-z0-9_]*\)(.*/\1/p' renderer/simd/*.h)
 [ "$(echo "$functions" | wc -l)" -ge 80 ] || {
     echo "fewer than 80 functions in renderer/simd/; has the way changed in which they are written?"
