@@ -168,7 +168,7 @@ static void run_job(void *context, int index, int worker_index) {
 static bool run_geometry(DipPipeline *pipeline, const DipPass *const *passes, int pass_count,
                          DipError *err) {
     do {
-        if (!dip_geometry_begin(&pipeline->geometry, passes, pass_count, err)) {
+        if (!dip_geometry_begin(&pipeline->geometry, passes, pass_count, pipeline->pool, err)) {
             return false;
         }
         dip_pool_run(pipeline->pool, pipeline->geometry.job_count, run_job, pipeline);

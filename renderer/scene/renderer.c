@@ -339,6 +339,7 @@ DipDrawInput dip_renderer_draw_input(const DipRenderer *renderer, const DipScene
         .unshared = renderer->unshared,
         .plain_surfaces = renderer->plain_surfaces,
         .all_lights = renderer->force_all_effects,
+        .pool = renderer->pool,
     };
 }
 

@@ -2,6 +2,7 @@
 #ifndef DIP_RENDERER_PIPELINE_GEOMETRY_CHUNK_CULL_H
 #define DIP_RENDERER_PIPELINE_GEOMETRY_CHUNK_CULL_H
 
+#include "renderer/base/pool.h"
 #include "renderer/pipeline/geometry/geometry.h"
 
 // Fills `visible` with the chunks that may be in view, draw by draw in the order of `order`, which
@@ -10,8 +11,9 @@
 // user clip plane. `visible` must have room for all chunks of the pass. Adds the draws of which
 // some chunk is in view, and those of which none is, to *in_view and *culled; a draw whose mesh is
 // empty is neither.
-uint32_t dip_cull_chunks(const DipPass *pass, const uint32_t *order, DipVisibleChunk *visible,
-                         uint64_t *in_view, uint64_t *culled);
+// pool: culls the draws; NULL: the caller's thread culls them.
+uint32_t dip_cull_chunks(const DipPass *pass, const uint32_t *order, DipPool *pool,
+                         DipVisibleChunk *visible, uint64_t *in_view, uint64_t *culled);
 
 // Returns the rectangle of pixels that clip space maps to: the pass's viewport, or the whole
 // target.

@@ -252,23 +252,87 @@ static uint32_t cull_draw(const DipCullPlanes *planes, const DipMesh *mesh, uint
     return count;
 }
 
-uint32_t dip_cull_chunks(const DipPass *pass, const uint32_t *order, DipVisibleChunk *visible,
-                         uint64_t *in_view, uint64_t *culled) {
-    const NdcRegion region = ndc_region(pass);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < (uint32_t)pass->draw_count; i++) {
-        const uint32_t d = order ? order[i] : i;
-        const DipDraw *draw = &pass->draws[d];
+enum { PARTS = 64, DRAWS_PER_PART = 64 };
+
+// A part of a pass's draws, whose chunks are culled by one thread.
+typedef struct Part {
+    uint32_t first; // numbers of its draws in the order in which they are drawn
+    uint32_t end;
+    uint32_t room;    // index into `visible` of the room for all chunks of its draws
+    uint32_t count;   // number of chunks in view
+    uint64_t in_view; // draws
+    uint64_t culled;
+} Part;
+
+// The culling of a pass.
+typedef struct CullRun {
+    const DipPass *pass;
+    const uint32_t *order;
+    DipVisibleChunk *visible;
+    NdcRegion region;
+    Part parts[PARTS];
+} CullRun;
+
+static const DipDraw *draw_at(const CullRun *run, uint32_t i, uint32_t *number) {
+    *number = run->order ? run->order[i] : i;
+    return &run->pass->draws[*number];
+}
+
+static void cull_part(void *context, int index, int worker) {
+    (void)worker;
+    CullRun *run = context;
+    Part part = run->parts[index];
+    for (uint32_t i = part.first; i < part.end; i++) {
+        uint32_t number;
+        const DipDraw *draw = draw_at(run, i, &number);
         DipCullPlanes planes = no_planes();
         if (!draw->mesh->chunk_count) {
             continue;
         }
         if (draw->bounds_to_clip) {
-            planes = pass_planes(pass, &region, draw->bounds_to_clip);
+            planes = pass_planes(run->pass, &run->region, draw->bounds_to_clip);
         }
-        const uint32_t chunks = cull_draw(&planes, draw->mesh, d, visible + count);
-        *(chunks ? in_view : culled) += 1;
-        count += chunks;
+        const uint32_t chunks =
+            cull_draw(&planes, draw->mesh, number, run->visible + part.room + part.count);
+        *(chunks ? &part.in_view : &part.culled) += 1;
+        part.count += chunks;
+    }
+    run->parts[index] = part;
+}
+
+// Divides the draws into parts, and the room for visible chunks among them. Returns the number of
+// parts.
+static int divide(CullRun *run) {
+    const uint64_t draws = (uint64_t)run->pass->draw_count;
+    const uint64_t wanted = (draws + DRAWS_PER_PART - 1) / DRAWS_PER_PART;
+    const int count = wanted < PARTS ? (int)wanted : PARTS;
+    uint32_t next = 0;
+    uint32_t room = 0;
+    for (int p = 0; p < count; p++) {
+        const uint32_t end = (uint32_t)(draws * (uint64_t)(p + 1) / (uint64_t)count);
+        run->parts[p] = (Part){.first = next, .end = end, .room = room};
+        for (; next < end && p + 1 < count; next++) {
+            uint32_t number;
+            room += draw_at(run, next, &number)->mesh->chunk_count;
+        }
+    }
+    return count;
+}
+
+uint32_t dip_cull_chunks(const DipPass *pass, const uint32_t *order, DipPool *pool,
+                         DipVisibleChunk *visible, uint64_t *in_view, uint64_t *culled) {
+    CullRun run = {.pass = pass, .order = order, .visible = visible, .region = ndc_region(pass)};
+    const int parts = divide(&run);
+    dip_pool_run(parts > 1 ? pool : NULL, parts, cull_part, &run);
+    uint32_t count = 0;
+    for (int p = 0; p < parts; p++) {
+        const Part *part = &run.parts[p];
+        if (part->count && part->room != count) {
+            memmove(visible + count, visible + part->room, part->count * sizeof *visible);
+        }
+        count += part->count;
+        *in_view += part->in_view;
+        *culled += part->culled;
     }
     return count;
 }

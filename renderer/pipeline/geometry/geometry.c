@@ -249,7 +249,7 @@ static void set_samples(DipSamplePositions *samples, const DipPass *const *passe
 }
 
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int pass_count,
-                        DipError *err) {
+                        DipPool *pool, DipError *err) {
     const DipPass *pass = passes[0];
     geometry->pass = pass;
     geometry->mapping = dip_screen_mapping(pass);
@@ -267,7 +267,7 @@ bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int
         dip_order_draws(pass, geometry->draw_order, geometry->draw_keys);
     }
     geometry->visible_count =
-        dip_cull_chunks(pass, geometry->near_to_far ? geometry->draw_order : NULL,
+        dip_cull_chunks(pass, geometry->near_to_far ? geometry->draw_order : NULL, pool,
                         geometry->visible, &geometry->draws_in_view, &geometry->draws_culled);
     cut_jobs(geometry);
     atomic_store_explicit(&geometry->triangles_taken, 0, memory_order_relaxed);

@@ -142,12 +142,12 @@ static inline const DipTileBin *dip_geometry_bin(const DipGeometry *geometry, in
 // Makes the arrays large enough for a pass. Fails with OVERSIZED or MEMORY.
 bool dip_geometry_reserve(DipGeometry *geometry, const DipPass *pass, DipError *err);
 
-// Finds the chunks in view of the first pass, divides them into jobs, and makes the arrays large
-// enough. The other passes are drawn from the same geometry, so they may differ from the first pass
-// only in samples and shading. pass_count: 1..DIP_MAX_PASSES_AT_ONCE. Fails with OVERSIZED or
-// MEMORY.
+// Finds the chunks in view of the first pass, on the threads of a pool (NULL: the caller's thread),
+// divides them into jobs, and makes the arrays large enough. The other passes are drawn from the
+// same geometry, so they may differ from the first pass only in samples and shading.
+// pass_count: 1..DIP_MAX_PASSES_AT_ONCE. Fails with OVERSIZED or MEMORY.
 bool dip_geometry_begin(DipGeometry *geometry, const DipPass *const *passes, int pass_count,
-                        DipError *err);
+                        DipPool *pool, DipError *err);
 
 // Runs one job. Threads may run different jobs at the same time.
 void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int job,

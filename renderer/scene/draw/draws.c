@@ -17,8 +17,10 @@ bool dip_draw_set_make(DipDrawSet *set, const DipScene *scene, bool reflects, Di
     set->water = reflects ? calloc(room, sizeof *set->water) : NULL;
     set->blended = blended ? calloc(blended, sizeof *set->blended) : NULL;
     set->levels = blended ? calloc(blended, sizeof *set->levels) : NULL;
+    set->plain = calloc(room, sizeof *set->plain);
+    set->in_view = calloc(room, sizeof *set->in_view);
     if (!set->draws || !set->uniforms || !set->matrices || (reflects && !set->water) ||
-        (blended && (!set->blended || !set->levels))) {
+        !set->plain || !set->in_view || (blended && (!set->blended || !set->levels))) {
         return dip_error_set(err, DIP_ERROR_MEMORY, NULL, 0, "scene", "no memory for %d objects",
                              scene->object_count);
     }
@@ -32,6 +34,8 @@ void dip_draw_set_free(DipDrawSet *set) {
     free(set->water);
     free(set->blended);
     free(set->levels);
+    free(set->plain);
+    free(set->in_view);
     *set = (DipDrawSet){0};
 }
 
@@ -218,19 +222,19 @@ static void set_effect(const DipDrawInput *input, const DipSceneMesh *mesh,
     }
 }
 
-// Turns the draw that was added last into reflecting water, which shows the mirrored picture.
-static void set_reflecting(const DipDrawInput *input, const DipDrawView *pass, DipDrawSet *set) {
-    const int last = set->count - 1;
-    DipWaterUniforms *water = &set->water[last];
+// Turns draw `at` into reflecting water, which shows the mirrored picture.
+static void set_reflecting(const DipDrawInput *input, const DipDrawView *pass, int at,
+                           DipDrawSet *set) {
+    DipWaterUniforms *water = &set->water[at];
     *water = (DipWaterUniforms){
-        .surface = set->uniforms[last],
+        .surface = set->uniforms[at],
         .mirrored = pass->shown,
         .inverse_size = {1.0f / (float)pass->width, 1.0f / (float)pass->height},
         .schlick = pass->schlick,
     };
-    set->draws[last].uniforms = water;
-    set->draws[last].fragment_shader = input->kernels->dip_kernel_water_fragment;
-    set->draws[last].own_shading = true; // the mirrored picture has this frame's samples
+    set->draws[at].uniforms = water;
+    set->draws[at].fragment_shader = input->kernels->dip_kernel_water_fragment;
+    set->draws[at].own_shading = true; // the mirrored picture has this frame's samples
 }
 
 static DipCull cull_of(const DipSceneMaterial *material, const DipSceneObject *object,
@@ -247,11 +251,12 @@ static void round_matrix(const double matrix[16], float rounded[16]) {
     }
 }
 
-// Sets the matrices of the draw that was added last.
-static void set_matrices(const DipView *view, const DipSceneObject *object, DipDrawSet *set) {
+// Sets the matrices of draw `at`.
+static void set_matrices(const DipView *view, const DipSceneObject *object, int at,
+                         DipDrawSet *set) {
     static const float no_origin[3] = {0.0f, 0.0f, 0.0f};
-    DipSurfaceUniforms *uniforms = &set->uniforms[set->count - 1];
-    DipDrawMatrices *matrices = &set->matrices[set->count - 1];
+    DipSurfaceUniforms *uniforms = &set->uniforms[at];
+    DipDrawMatrices *matrices = &set->matrices[at];
     DipExactTransform *exact = &matrices->exact_to_clip;
     dip_view_object_origin(view->eye, object->transform, object->world_to_object, exact->origin);
     dip_view_object_to_clip(view, object->transform, exact->origin, exact->to_clip);
@@ -275,17 +280,19 @@ static DipFragmentShader *clip_shader(const DipDrawInput *input) {
 // farther than this, in metres: the steps of floats are 1/16 m there.
 #define SKY_FAR_COORDINATE 0x1p19f
 
-static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int index,
-                     DipDrawSet *set) {
+// Makes draw `at` of the set, which draws the object with this index. It writes nothing of the set
+// but what belongs to the draw.
+static void make_draw(const DipDrawInput *input, const DipDrawView *pass, int index, int at,
+                      DipDrawSet *set) {
     const DipSceneObject *object = &input->scene->objects[index];
     const DipSceneMesh *mesh = &input->scene->meshes[object->mesh];
     const DipSceneMaterial *material = &input->scene->materials[mesh->material];
-    DipDraw *draw = &set->draws[set->count];
-    DipSurfaceUniforms *uniforms = &set->uniforms[set->count++];
+    DipDraw *draw = &set->draws[at];
+    DipSurfaceUniforms *uniforms = &set->uniforms[at];
     const bool full = (mesh->normal_mapped || mesh->pbr) && !input->plain_surfaces;
     *uniforms = full ? mesh->full_layout : mesh->layout;
     uniforms->sample_count = dip_quality_sample_count(input->quality);
-    set_matrices(pass->view, object, set);
+    set_matrices(pass->view, object, at, set);
     if (input->quality->step[DIP_SETTING_MIPDEBUG] && uniforms->colour_varying != DIP_ABSENT) {
         for (int c = 0; c < 3; c++) {
             uniforms->base_colour_lin[c] = 1.0f;
@@ -307,14 +314,14 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
         .repeating_varyings = mesh->repeating_varyings,
         .uniforms = uniforms,
         .samplers = input->samplers[mesh->material],
-        .bounds_to_clip = set->matrices[set->count - 1].bounds_to_clip,
-        .exact_to_clip = &set->matrices[set->count - 1].exact_to_clip,
+        .bounds_to_clip = set->matrices[at].bounds_to_clip,
+        .exact_to_clip = &set->matrices[at].exact_to_clip,
         .cull = cull_of(material, object, pass->mirrored),
         // Sample groups shift the level of detail.
         .own_shading = material->surface == DIP_SURFACE_CLIPPED &&
                        dip_quality_groups_bias_lod8(input->quality) != 0,
     };
-    set->matrices[set->count - 1].exact_to_clip.far_coordinate =
+    set->matrices[at].exact_to_clip.far_coordinate =
         material->surface == DIP_SURFACE_SKY ? SKY_FAR_COORDINATE : 0.0f;
     uniforms->rays = &set->rays;
     uniforms->lighting = &set->lighting;
@@ -326,7 +333,7 @@ static void add_draw(const DipDrawInput *input, const DipDrawView *pass, int ind
     set_effect(input, mesh, uniforms, draw);
     draw->w_varyings = uniforms->depth_varying == DIP_ABSENT ? 0 : 1u << uniforms->depth_varying;
     if (pass->shown && material->surface == DIP_SURFACE_WATER) {
-        set_reflecting(input, pass, set);
+        set_reflecting(input, pass, at, set);
     }
 }
 
@@ -410,7 +417,7 @@ static void add_blended(const DipDrawInput *input, const DipDrawView *pass, int 
                         DipDrawSet *set) {
     dip_blend_sort(set->blended, count);
     for (int i = 0; i < count; i++) {
-        add_draw(input, pass, set->blended[i].object, set);
+        make_draw(input, pass, set->blended[i].object, set->count++, set);
         blend_last(input, pass, set->blended[i].object, set);
     }
 }
@@ -423,10 +430,52 @@ static void see_lights(const DipScene *scene, const DipView *view, DipDrawSet *s
     }
 }
 
+// The draws of a pass that are being made, on several threads.
+typedef struct Fill {
+    DipDrawSet *set;
+    const DipDrawInput *input;
+    const DipDrawView *pass;
+} Fill;
+
+enum { OBJECTS_PER_JOB = 256, DRAWS_PER_JOB = 64 };
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+// Runs jobs for `count` things. A single job needs no other thread.
+static void run_jobs(Fill *fill, int count, int per_job, DipTask job) {
+    const int jobs = (count + per_job - 1) / per_job;
+    dip_pool_run(jobs > 1 ? fill->input->pool : NULL, jobs, job, fill);
+}
+
+// Finds which objects of a job are in view.
+static void see_objects(void *context, int job, int worker) {
+    (void)worker;
+    const Fill *fill = context;
+    const DipScene *scene = fill->input->scene;
+    const int end = least((job + 1) * OBJECTS_PER_JOB, scene->object_count);
+    for (int i = job * OBJECTS_PER_JOB; i < end; i++) {
+        const DipCullPlanes *seen = fill->pass->seen;
+        fill->set->in_view[i] = !seen || !dip_cull_outside(seen, &scene->objects[i].bounds);
+    }
+}
+
+// Makes the draws of a job, which are not blended.
+static void make_draws(void *context, int job, int worker) {
+    (void)worker;
+    const Fill *fill = context;
+    const int end = least((job + 1) * DRAWS_PER_JOB, fill->set->plain_count);
+    for (int at = job * DRAWS_PER_JOB; at < end; at++) {
+        make_draw(fill->input, fill->pass, fill->set->plain[at], at, fill->set);
+    }
+}
+
 void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDrawView *pass) {
     const DipScene *scene = input->scene;
+    Fill fill = {set, input, pass};
     int blended = 0;
-    set->count = 0;
+    set->plain_count = 0;
     set->culled = 0;
     set->rays = view_rays(pass->view, pass->width, pass->height);
     see_lights(scene, pass->view, set);
@@ -434,20 +483,21 @@ void dip_draw_set_fill(DipDrawSet *set, const DipDrawInput *input, const DipDraw
     if (pass->shadow) {
         set->shadow = *pass->shadow;
     }
+    run_jobs(&fill, scene->object_count, OBJECTS_PER_JOB, see_objects);
     for (int i = 0; i < scene->object_count; i++) {
-        const DipSceneObject *object = &scene->objects[i];
-        const DipSceneMaterial *material = material_of(scene, object);
+        const DipSceneMaterial *material = material_of(scene, &scene->objects[i]);
         if (pass->mirrored && material->surface == DIP_SURFACE_WATER) {
             continue;
         }
-        if (pass->seen && dip_cull_outside(pass->seen, &object->bounds)) {
+        if (!set->in_view[i]) {
             set->culled++;
         } else if (material->blended) {
             set->blended[blended++] = place_blended(scene, pass->view, i, set);
         } else {
-            add_draw(input, pass, i, set);
+            set->plain[set->plain_count++] = i;
         }
     }
-    set->plain_count = set->count;
+    run_jobs(&fill, set->plain_count, DRAWS_PER_JOB, make_draws);
+    set->count = set->plain_count;
     add_blended(input, pass, blended, set);
 }

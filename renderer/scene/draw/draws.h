@@ -4,6 +4,7 @@
 #define DIP_RENDERER_SCENE_DRAW_DRAWS_H
 
 #include "renderer/base/error.h"
+#include "renderer/base/pool.h"
 #include "renderer/pipeline/cull.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draw/blend_order.h"
@@ -29,6 +30,7 @@ typedef struct DipDrawInput {
     const DipUnsharedMeshes *unshared; // NULL: objects share the scene's meshes
     bool plain_surfaces;
     bool all_lights; // lights are computed even on objects that they cannot reach
+    DipPool *pool;   // makes the draws; NULL: the caller's thread makes them
 } DipDrawInput;
 
 // Input that differs from pass to pass.
@@ -67,6 +69,8 @@ typedef struct DipDrawSet {
     DipBlendedObject *blended;    // the blended objects in view; NULL if the scene has none
     float *levels;                // the heights of blended water; as many as blended objects
     int level_count;
+    int *plain;    // the objects of the draws that are not blended
+    bool *in_view; // one per object
     DipViewRays rays;
     DipLightingUniforms lighting; // only if the scene has lights or metallic-roughness surfaces
     DipShadowUniforms shadow;     // only if surfaces receive shadows

@@ -396,7 +396,7 @@ static void check_object(Random *random, DipPass *pass, const DipView *view, con
     const bool object = !dip_cull_outside(&planes, &bounds);
     uint64_t in_view = 0;
     uint64_t culled = 0;
-    const uint32_t count = dip_cull_chunks(pass, NULL, visible, &in_view, &culled);
+    const uint32_t count = dip_cull_chunks(pass, NULL, NULL, visible, &in_view, &culled);
     assert_int_equal(in_view, count > 0);
     assert_int_equal(culled, count == 0);
     uint32_t next = 0;
@@ -434,6 +434,76 @@ static void culling_keeps_everything_visible(void **state) {
            chunks, kept.chunks, kept.seen);
     assert_true(kept.seen > 1000);
     assert_true(kept.objects < VIEWS * PLACED / 2);
+}
+
+enum { DRAWS = 1000, THREADS = 3 };
+
+// Returns the chunks of one draw that are in view.
+static uint32_t cull_alone(const DipPass *pass, uint32_t draw, DipVisibleChunk *visible,
+                           uint64_t *in_view, uint64_t *culled) {
+    DipPass alone = *pass;
+    alone.draws = &pass->draws[draw];
+    alone.draw_count = 1;
+    const uint32_t count = dip_cull_chunks(&alone, NULL, NULL, visible, in_view, culled);
+    for (uint32_t i = 0; i < count; i++) {
+        visible[i].draw = draw;
+    }
+    return count;
+}
+
+// Makes DRAWS draws of a mesh at random places. All of every third hundred is in view.
+static void place_draws(Random *random, const DipView *view, const DipMesh *mesh, DipDraw *draws,
+                        float (*matrices)[16]) {
+    for (int d = 0; d < DRAWS; d++) {
+        float transform[12];
+        double to_clip[16];
+        random_transform(random, transform);
+        dip_view_object_to_clip(view, transform, (const float[3]){0.0f, 0.0f, 0.0f}, to_clip);
+        for (int i = 0; i < 16; i++) {
+            matrices[d][i] = (float)to_clip[i];
+        }
+        draws[d] = (DipDraw){.mesh = mesh, .bounds_to_clip = d / 100 % 3 ? matrices[d] : NULL};
+    }
+}
+
+// Several threads cull the draws of a pass part by part. The chunks are those of each draw alone,
+// in the given order.
+static void threads_keep_the_order_of_draws(void **state) {
+    (void)state;
+    static DipDraw draws[DRAWS];
+    static float matrices[DRAWS][16];
+    static uint32_t order[DRAWS];
+    Random random = {77};
+    DipMesh *mesh = random_mesh(&random);
+    DipPool *pool = dip_pool_create(THREADS, NULL);
+    const DipPose pose = {.orientation = {0.0, 0.0, 0.0, 1.0}, .fov_y_deg = 60.0};
+    const DipView view = dip_view_make(&pose, 0.1, (double)WIDTH / HEIGHT);
+    DipPass pass = {.target = {.width = WIDTH, .height = HEIGHT}};
+    place_draws(&random, &view, mesh, draws, matrices);
+    pass.draws = draws;
+    DipVisibleChunk *found = calloc(mesh->chunk_count * DRAWS, sizeof *found);
+    DipVisibleChunk *expected = calloc(mesh->chunk_count * DRAWS, sizeof *expected);
+    assert_true(pool && found && expected);
+    for (pass.draw_count = DRAWS; pass.draw_count > 0; pass.draw_count -= 111) {
+        const uint32_t draw_count = (uint32_t)pass.draw_count;
+        uint64_t counts[4] = {0};
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < draw_count; i++) {
+            order[i] = (i + draw_count / 2) % draw_count;
+        }
+        for (uint32_t i = 0; i < draw_count; i++) {
+            count += cull_alone(&pass, order[i], expected + count, &counts[0], &counts[1]);
+        }
+        assert_int_equal(dip_cull_chunks(&pass, order, pool, found, &counts[2], &counts[3]), count);
+        assert_memory_equal(found, expected, count * sizeof *found);
+        assert_int_equal(counts[2], counts[0]);
+        assert_int_equal(counts[3], counts[1]);
+        assert_true(draw_count < DRAWS || (counts[0] > 20 && counts[1] > 20));
+    }
+    free(found);
+    free(expected);
+    dip_pool_destroy(&pool);
+    dip_mesh_destroy(&mesh);
 }
 
 // --- more memory than first allocated ----------------------------------------------------------
@@ -559,6 +629,7 @@ int main(void) {
         cmocka_unit_test(culling_never_changes_a_picture),
         cmocka_unit_test(a_region_equals_the_same_part_of_the_whole_picture),
         cmocka_unit_test(culling_keeps_everything_visible),
+        cmocka_unit_test(threads_keep_the_order_of_draws),
         cmocka_unit_test(each_plane_culls_by_itself),
         cmocka_unit_test(what_a_pass_draws_bounds_the_view),
         cmocka_unit_test(clipping_can_double_the_triangles),
