@@ -161,21 +161,25 @@ VEC_INLINE void filter_vector(const Read *read, ReadMode mode, const ReadList *l
     }
 }
 
-// Returns whether the quad of a lane is prefetched. Without anisotropy, neighbouring fragments
-// mostly read the same cache line, so that a part of the lanes is enough: a chessboard, if the
-// fragments are those of a sub-block, and in the coarser level one lane in eight. far: the coarser
-// level.
+// Returns whether the quad of a lane is prefetched. Neighbouring fragments mostly read the same
+// cache line, so that a part of the lanes is enough: in the coarser level one in four or, without
+// anisotropy, one in eight; and without anisotropy in the finer level a chessboard, if the
+// fragments are those of a sub-block.
 VEC_INLINE bool prefetches_lane(ReadMode mode, bool far, int lane) {
-    return mode.anisotropic || (far ? lane % 8 == lane / 8 : (lane + lane / 4) % 2 == 0);
+    if (mode.anisotropic) {
+        return !far || lane % 4 == 0;
+    }
+    return far ? lane % 8 == lane / 8 : (lane + lane / 4) % 2 == 0;
 }
 
-// Prefetches the texels of `count` listed reads, the first of which is in the finer level. Each
-// quad lies in one or two cache lines, mostly in one; only the first one is prefetched.
+// Prefetches the texels that vector n reads, of whose listed reads number `first` is the first one.
+// Each quad lies in one or two cache lines, mostly in one; only the first one is prefetched.
 VEC_INLINE void prefetch_texels(const DipTexture *texture, ReadMode mode, const ReadList *list,
-                                int first, int count) {
-    for (int i = first; i < first + count; i++) {
+                                int first, int n) {
+    const int far = first + list->near[n];
+    for (int i = first; i < far + list->far[n]; i++) {
         for (int lane = 0; lane < DIP_LANES; lane++) {
-            if (prefetches_lane(mode, i > first, lane)) {
+            if (prefetches_lane(mode, i >= far, lane)) {
                 __builtin_prefetch(texture->texels + (uint32_t)list->index[i][lane]);
             }
         }
@@ -199,7 +203,7 @@ VEC_INLINE void sample_read(DipFragmentBatch *batch, const DipSampler *sampler, 
         const int count =
             list_vector(&list, first, read.texture[0], mode, near, far, &footprints, n);
         for (int t = 0; t < read.count; t++) {
-            prefetch_texels(read.texture[t], mode, &list, first, count);
+            prefetch_texels(read.texture[t], mode, &list, first, n);
         }
         first += count;
     }
