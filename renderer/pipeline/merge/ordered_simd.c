@@ -4,6 +4,7 @@
 // queued to be shaded and blended.
 #include "renderer/pipeline/merge/ordered.h"
 #include "renderer/pipeline/raster/in_tile_simd.h"
+#include "renderer/pipeline/raster/kept_simd.h"
 
 // The stencil test of a triangle: the values and operations of the face that it shows.
 typedef struct StencilTest {
