@@ -104,8 +104,9 @@ bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *
         return dip_error_set(err, DIP_ERROR_MISSING, NULL, 0, pipeline ? "pass" : "pipeline",
                              "NULL, accepted a pointer");
     }
-    return make_lists(pipeline, pass->draw_count, err) && make_merge(pipeline, pass, err) &&
-           make_light(pipeline, pass, err) && dip_geometry_reserve(&pipeline->geometry, pass, err);
+    return dip_pass_check_draws(pass, err) && make_lists(pipeline, pass->draw_count, err) &&
+           make_merge(pipeline, pass, err) && make_light(pipeline, pass, err) &&
+           dip_geometry_reserve(&pipeline->geometry, pass, err);
 }
 
 static void begin_merge(DipPipeline *pipeline, const DipPass *pass) {

@@ -266,8 +266,9 @@ DIP_API bool dip_pipeline_draw_passes(const DipPassWork *works, int count, bool 
 DIP_API void dip_pipeline_record_tiles(DipPipeline *pipeline, const DipTileRecording *recording);
 
 // Allocates the memory that drawing the pass needs. Drawing it later allocates nothing, unless
-// clipping makes very many triangles. The function does not read the pass's target and uniforms.
-// Fails with OVERSIZED or MEMORY.
+// clipping makes very many triangles. The function does not read the pass's uniforms. Its draws
+// need fragment shaders only if it has a target. Fails with OVERSIZED or MEMORY, and as drawing
+// does if the pass's draws are wrong.
 DIP_API bool dip_pipeline_reserve(DipPipeline *pipeline, const DipPass *pass, DipError *err);
 
 #ifdef __cplusplus

@@ -169,18 +169,9 @@ static bool check_readback(const DipSampleReadback *readback, const DipTarget *t
            is_set(readback->samples, "readback.samples", err);
 }
 
-bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
-    if (!is_set(pass, "pass", err) || !check_target(pass, width, height, err) ||
-        !dip_rectangle_check(&pass->region, &pass->target, "region", err) ||
-        !check_tile_regions(pass, err) ||
-        !dip_rectangle_check(&pass->viewport, &pass->target, "viewport", err) ||
-        !dip_rectangle_check(&pass->scissor, &pass->target, "scissor", err) ||
-        !check_samples(pass, err) || !check_clear(pass->clear_lin, err) ||
-        !dip_attachments_check(pass, err) ||
-        !in_range(pass->clip_plane_count, 0, DIP_MAX_CLIP_PLANES, "clip_plane_count", err) ||
-        !in_range(pass->draw_count, 0, INT32_MAX, "draw_count", err) ||
-        (pass->draw_count && !is_set(pass->draws, "draws", err)) ||
-        !check_readback(pass->readback, &pass->target, err)) {
+bool dip_pass_check_draws(const DipPass *pass, DipError *err) {
+    if (!in_range(pass->draw_count, 0, INT32_MAX, "draw_count", err) ||
+        (pass->draw_count && !is_set(pass->draws, "draws", err))) {
         return false;
     }
     for (int d = 0; d < pass->draw_count; d++) {
@@ -188,7 +179,20 @@ bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
             return name_draw(d, err);
         }
     }
-    return !pass->readback || !dip_pass_is_merged(pass) ||
-           dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "readback",
-                         "the pass is merged, accepted a pass of plain draws into sRGB bytes");
+    return true;
+}
+
+bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err) {
+    return is_set(pass, "pass", err) && check_target(pass, width, height, err) &&
+           dip_rectangle_check(&pass->region, &pass->target, "region", err) &&
+           check_tile_regions(pass, err) &&
+           dip_rectangle_check(&pass->viewport, &pass->target, "viewport", err) &&
+           dip_rectangle_check(&pass->scissor, &pass->target, "scissor", err) &&
+           check_samples(pass, err) && check_clear(pass->clear_lin, err) &&
+           dip_attachments_check(pass, err) &&
+           in_range(pass->clip_plane_count, 0, DIP_MAX_CLIP_PLANES, "clip_plane_count", err) &&
+           check_readback(pass->readback, &pass->target, err) && dip_pass_check_draws(pass, err) &&
+           (!pass->readback || !dip_pass_is_merged(pass) ||
+            dip_error_set(err, DIP_ERROR_CONFLICT, NULL, 0, "readback",
+                          "the pass is merged, accepted a pass of plain draws into sRGB bytes"));
 }

@@ -8,4 +8,7 @@
 // wrong field, and the message says what was found and what is accepted.
 bool dip_pass_check(const DipPass *pass, int width, int height, DipError *err);
 
+// The same for the pass's draws alone. They need fragment shaders if the pass has a target.
+bool dip_pass_check_draws(const DipPass *pass, DipError *err);
+
 #endif

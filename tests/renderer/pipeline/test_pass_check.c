@@ -131,6 +131,26 @@ static void bad_passes_are_refused_with_the_field_at_fault(void **state) {
     }
 }
 
+static void memory_is_not_reserved_for_bad_draws(void **state) {
+    const Stage *stage = *state;
+    size_t refused = 0;
+    for (size_t i = 0; i < sizeof bad_passes / sizeof *bad_passes; i++) {
+        DipDraw draw = stage->draw;
+        DipPass pass = good_pass(stage, 0);
+        DipError err = {0};
+        pass.draws = &draw;
+        assert_true(dip_pipeline_reserve(stage->pipelines[0], &pass, &err));
+        bad_passes[i].spoil(&pass, &draw);
+        if (strncmp(bad_passes[i].field, "draw", 4) == 0) {
+            assert_false(dip_pipeline_reserve(stage->pipelines[0], &pass, &err));
+            assert_string_equal(err.key, bad_passes[i].field);
+            assert_int_equal(err.code, bad_passes[i].code);
+            refused++;
+        }
+    }
+    assert_true(refused >= 10);
+}
+
 static void a_good_pass_is_drawn(void **state) {
     const Stage *stage = *state;
     const DipPass pass = good_pass(stage, 0);
@@ -214,6 +234,7 @@ static void a_list_of_no_draws_is_legal(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_passes_are_refused_with_the_field_at_fault),
+        cmocka_unit_test(memory_is_not_reserved_for_bad_draws),
         cmocka_unit_test(a_good_pass_is_drawn),
         cmocka_unit_test(the_fault_of_one_draw_of_many_names_its_index),
         cmocka_unit_test(missing_pointers_are_refused_or_have_a_meaning),
