@@ -70,7 +70,7 @@ typedef struct DipClipTest {
     // Not NULL: each byte is the number of samples of its pixel that the surface may have
     // (DipPass.alpha_to_coverage). It may have the first of these samples.
     const uint8_t *order;
-    // Only plain draws have the next two; ordered draws test the fragments of each triangle at
+    // Only plain draws use the next two; ordered draws test the fragments of each triangle at
     // once.
     DipClipQueue *queue;
     const DipTriangle *triangles; // those of the geometry

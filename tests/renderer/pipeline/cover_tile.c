@@ -1,3 +1,4 @@
+// Sets up single triangles for the tiles of a target of 171x122 pixels.
 #include "tests/renderer/pipeline/cover_tile.h"
 
 #include "renderer/pipeline/geometry/setup.h"
