@@ -1,6 +1,7 @@
 // A job of the geometry stage: transforms chunks, then clips, sets up and bins their triangles.
 #include "renderer/pipeline/geometry/geometry.h"
 
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/geometry/clip.h"
 #include "renderer/pipeline/geometry/mesh_layout.h"
 #include "renderer/pipeline/geometry/repeat.h"
@@ -385,6 +386,24 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
     add_chunk_triangles(run, chunk);
 }
 
+// Prefetches `size_bytes` bytes.
+static inline void prefetch(const void *from, size_t size_bytes) {
+    const uintptr_t first = (uintptr_t)from / DIP_CACHE_LINE * DIP_CACHE_LINE;
+    for (uintptr_t line = first; line < (uintptr_t)from + size_bytes; line += DIP_CACHE_LINE) {
+        __builtin_prefetch((const void *)line);
+    }
+}
+
+// Prefetches the vertices and triangles of a chunk.
+static void prefetch_chunk(const DipMesh *mesh, const DipChunk *chunk) {
+    for (int a = 0; a < mesh->attribute_count; a++) {
+        prefetch(mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex,
+                 chunk->vertex_count * sizeof *mesh->attributes);
+    }
+    prefetch(mesh->indices + chunk->first_index, 3 * (size_t)dip_corner_stride(chunk));
+    prefetch(mesh->patches + chunk->first_triangle, chunk->triangle_count * sizeof *mesh->patches);
+}
+
 static DipSetupTarget setup_target(const DipGeometry *geometry) {
     const DipTargetRegion *region = &geometry->region;
     DipSetupTarget target = {
@@ -427,7 +446,8 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
     for (int i = 0; i < DIP_CHUNK_TRIANGLES + DIP_BATCH_ALIGN; i++) {
         run.all_edges[i] = DIP_ORDERED_EDGES;
     }
-    for (uint32_t c = job->first_chunk; c < job->first_chunk + job->chunk_count; c++) {
+    const uint32_t end = job->first_chunk + job->chunk_count;
+    for (uint32_t c = job->first_chunk; c < end; c++) {
         const DipVisibleChunk visible = geometry->visible[c];
         run.draw = &geometry->pass->draws[visible.draw];
         run.target.draw = visible.draw;
@@ -438,6 +458,13 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         run.target.varying_count = run.draw->varying_count;
         run.target.repeating_varyings = run.draw->repeating_varyings;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
+        if (c + 1 < end) {
+            const DipVisibleChunk next = geometry->visible[c + 1];
+            const DipMesh *mesh = geometry->pass->draws[next.draw].mesh;
+            if (&mesh->chunks[next.chunk] != chunk) {
+                prefetch_chunk(mesh, &mesh->chunks[next.chunk]);
+            }
+        }
         run.job.triangles_in += chunk->triangle_count;
         run_chunk(&run, chunk);
     }
