@@ -47,7 +47,7 @@ static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
     if (ahead < walk->count) {
         prefetch(&geometry->triangles[walk->block->triangle[ahead]]);
     } else if (walk->block != walk->last) {
-        // The next block has an entry ahead - DIP_BIN_BLOCK if 
+        // The next block has an entry ahead - DIP_BIN_BLOCK if
         const DipBinBlock *next = &geometry->blocks[walk->block->next];
         if (next != walk->last || ahead - walk->count < walk->last_count) {
             prefetch(&geometry->triangles[next->triangle[ahead - walk->count]]);

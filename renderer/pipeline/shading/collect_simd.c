@@ -2,6 +2,7 @@
 // becomes a fragment in the list of the patch's draw. The 16 pixels of a sub-block (4x4 pixels) are
 // handled as a mask of 16 bits. Within a sub-block, pixels whose samples all show one patch are
 // added draw by draw. Pixels that show several patches are added patch by patch.
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/simd/vec.h"
@@ -452,6 +453,37 @@ static void push_one_draw(const SubBlock *sub, unsigned left, uint32_t draw) {
     }
 }
 
+// Planes are prefetched for sub-blocks in which more neighbouring pixels than these have different
+// triangles. Prefetching those of large triangles would cost more time than it saves.
+enum { FEW_CHANGES = 6 };
+
+// Prefetches the planes of the triangles that the first samples of the pixels show, if there are
+// many. The planes of small triangles are read once per tile, so they are seldom in the caches. The
+// fragments wait in their list until there is a batch, so the planes have time to come.
+VEC_INLINE void prefetch_planes(const SubBlock *sub) {
+    static const int32_t next[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0};
+    const int32_t *ids = (const int32_t *)sub->ids;
+    unsigned stay = 0; // the pixels that show no triangle or that of the next pixel
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi held = vi_load(ids + v * DIP_LANES);
+        const Mask same = vi_eq(held, vi_lookup16(ids, vi_load(next + v * DIP_LANES)));
+        stay |= mask_bits(same | vi_eq(held, vi_splat(0))) << (v * DIP_LANES);
+    }
+    unsigned changes = ~stay & ALL_PIXELS;
+    if (__builtin_popcount(changes) <= FEW_CHANGES) {
+        return;
+    }
+    const DipShadingInput *input = &sub->shading->input;
+    const size_t size_bytes = (size_t)input->plane_stride * sizeof *input->planes;
+    for (; changes; changes &= changes - 1) {
+        const size_t triangle = (size_t)ids[__builtin_ctz(changes)] - 1;
+        const char *planes = (const char *)input->planes + triangle * size_bytes;
+        for (size_t b = 0; b < size_bytes; b += DIP_CACHE_LINE) {
+            __builtin_prefetch(planes + b);
+        }
+    }
+}
+
 // grouped: the sub-block may hold triangles that were drawn in sample groups.
 static void collect_sub_block(SubBlock *sub, bool grouped) {
     const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
@@ -464,6 +496,7 @@ static void collect_sub_block(SubBlock *sub, bool grouped) {
             shares(sub->shading) ? share_pixels(sub, ALL_PIXELS) : (unsigned)ALL_PIXELS;
         push_one_draw(sub, left, draw);
     } else {
+        prefetch_planes(sub);
         collect_shared(sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(sub));
     }
 }

@@ -1,6 +1,5 @@
 // Interpolates the varyings of fragment batches, and encodes the colours of shaded batches. This
 // file is compiled once per instruction set.
-#include "renderer/base/pages.h"
 #include "renderer/pipeline/kernels/kernels.h"
 #include "renderer/pipeline/shading/tile_shading.h"
 #include "renderer/simd/quads.h"
@@ -9,13 +8,6 @@
 // If the fragments of a vector lie on at most this many triangles, the planes are read triangle by
 // triangle. Otherwise they are read lane by lane.
 enum { FEW_TRIANGLES = 2 };
-
-// Planes are prefetched for vectors in which more neighbouring lanes than these have different
-// triangles.
-enum { FEW_CHANGES = DIP_LANES * 3 / 4 };
-// They are prefetched for this many fragments at a time. The planes of a whole batch of small
-// triangles would fill the first-level cache.
-enum { PREFETCHED = 64 };
 
 enum { MAX_ROWS = DIP_PLANES_VARYINGS + 3 * DIP_MAX_VARYINGS + 3 };
 
@@ -120,38 +112,11 @@ VEC_INLINE void interpolate(const VaryingPlanes *planes, int count, Vf x, Vf y, 
     }
 }
 
-// Prefetches the planes that the vectors of a batch need, where many lanes have a triangle of their
-// own. Planes of small triangles are read once per tile and are seldom in the caches. Vectors with
-// few triangles do without, because prefetching them would cost more time than it saves.
-VEC_INLINE void prefetch_planes(const DipShadingInput *input, const uint32_t *triangle, int count,
-                                int varying_count) {
-    const size_t size_bytes = (size_t)dip_plane_floats(varying_count) * sizeof(float);
-    for (int i = 0; i < count; i += DIP_LANES) {
-        const Vi ids = vi_load((const int32_t *)triangle + i);
-        const Vi next = vi_load((const int32_t *)triangle + i + 1);
-        unsigned changes = mask_bits(vi_eq(ids, next)) ^ VEC_ALL_LANES;
-        if (__builtin_popcount(changes) <= FEW_CHANGES) {
-            continue;
-        }
-        for (; changes; changes &= changes - 1) {
-            const float *planes = planes_of(input, triangle[i + 1 + __builtin_ctz(changes)]);
-            for (size_t b = 0; b < size_bytes; b += DIP_CACHE_LINE) {
-                __builtin_prefetch((const char *)planes + b);
-            }
-        }
-    }
-}
-
 void DIP_KERNEL(dip_kernel_interpolate)(const DipShadingInput *input, const DipFragmentList *list,
                                         int varying_count, int value_only_count,
                                         DipFragmentBatch *batch) {
     batch->count = list->count < DIP_FRAGMENT_BATCH ? list->count : DIP_FRAGMENT_BATCH;
     for (int i = 0; i < batch->count; i += DIP_LANES) {
-        const int left = batch->count - i;
-        if (varying_count > 0 && i % PREFETCHED == 0) {
-            prefetch_planes(input, list->triangle + i, left < PREFETCHED ? left : PREFETCHED,
-                            varying_count);
-        }
         const Vi position = vi_load((const int32_t *)list->position + i);
         const Vf x = target_coordinate(position & (DIP_TILE - 1),
                                        position >> DIP_POSITION_SUB_X & 255, input->x0);
