@@ -99,19 +99,19 @@ VEC_INLINE int32_t position_of(const SubBlock *sub, int sub_x, int sub_y) {
 }
 
 // Adds a sub-block in which all 16 pixels show the same draw, and each pixel shows one patch. Its
-// 16 fragments stay together in the draw's list of whole sub-blocks.
-static void push_whole(const SubBlock *sub, uint32_t draw) {
-    DipTileShading *shading = sub->shading;
+// 16 fragments stay together in the draw's list of whole sub-blocks. ids: those of the first
+// samples of the sub-block's pixels; centre: position of the centre of its first pixel.
+VEC_INLINE void push_whole(DipTileShading *shading, const uint32_t *ids, int32_t centre,
+                           uint32_t draw) {
     activate(shading, draw);
     DipFragmentList *list = &shading->whole_lists[draw];
     for (int v = 0; v < VECTORS; v++) {
         vi_store((int32_t *)list->triangle + list->count + v * DIP_LANES,
-                 vi_load((const int32_t *)sub->ids + v * DIP_LANES) - 1);
-        const Vi at = vi_load(pixel_position + v * DIP_LANES);
+                 vi_load((const int32_t *)ids + v * DIP_LANES) - 1);
         vi_store((int32_t *)list->position + list->count + v * DIP_LANES,
-                 at + position_of(sub, 128, 128));
+                 vi_load(pixel_position + v * DIP_LANES) + centre);
     }
-    list->count += 16;
+    list->count += DIP_SUB_BLOCK_PIXELS;
     if (list->count == DIP_FRAGMENT_BATCH) {
         shading->flush_whole(shading, draw);
     }
@@ -412,7 +412,7 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
         uniform = share_pixels(sub, uniform);
     }
     if (uniform == ALL_PIXELS && pixels_with(draws, draws[0]) == ALL_PIXELS) {
-        push_whole(sub, draws[0]);
+        push_whole(sub->shading, sub->ids, position_of(sub, 128, 128), draws[0]);
         return;
     }
     clear_pixels(sub, empty);
@@ -422,20 +422,20 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
     }
 }
 
-// Returns whether the first samples of all pixels show the same draw, in a few triangles, and sets
-// *draw to it.
-static bool shows_one_draw(const SubBlock *sub, uint32_t *draw) {
-    if (!sub->ids[0]) {
+// Returns whether the first samples of a sub-block's pixels show the same draw, in a few triangles,
+// and sets *draw to it.
+VEC_INLINE bool shows_one_draw(const DipTileShading *shading, const uint32_t *ids, uint32_t *draw) {
+    if (!ids[0]) {
         return false;
     }
-    *draw = draw_of(sub->shading, sub->ids[0] - 1);
-    unsigned left = ALL_PIXELS & ~pixels_with(sub->ids, sub->ids[0]);
+    *draw = draw_of(shading, ids[0] - 1);
+    unsigned left = ALL_PIXELS & ~pixels_with(ids, ids[0]);
     for (int n = 1; n < FEW_TRIANGLES && left; n++) {
-        const uint32_t id = sub->ids[__builtin_ctz(left)];
-        if (!id || draw_of(sub->shading, id - 1) != *draw) {
+        const uint32_t id = ids[__builtin_ctz(left)];
+        if (!id || draw_of(shading, id - 1) != *draw) {
             return false;
         }
-        left &= ~pixels_with(sub->ids, id);
+        left &= ~pixels_with(ids, id);
     }
     return !left;
 }
@@ -443,7 +443,7 @@ static bool shows_one_draw(const SubBlock *sub, uint32_t *draw) {
 // Collects the pixels `left` of a sub-block that shows one draw alone.
 static void push_one_draw(const SubBlock *sub, unsigned left, uint32_t draw) {
     if (left == ALL_PIXELS) {
-        push_whole(sub, draw);
+        push_whole(sub->shading, sub->ids, position_of(sub, 128, 128), draw);
     } else if (left) {
         uint32_t draws[DIP_SUB_BLOCK_PIXELS];
         for (int i = 0; i < DIP_SUB_BLOCK_PIXELS; i++) {
@@ -484,20 +484,56 @@ VEC_INLINE void prefetch_planes(const SubBlock *sub) {
     }
 }
 
-// grouped: the sub-block may hold triangles that were drawn in sample groups.
-static void collect_sub_block(SubBlock *sub, bool grouped) {
-    const bool within = sub->x0 + 4 <= sub->shading->width && sub->y0 + 4 <= sub->shading->height;
-    const bool several = sub->sample_count > 1 &&
-                         multi_fragment_pixels(sub->ids, sub->sample_count, DIP_BLOCK_PIXELS);
-    uint32_t draw;
-    if (within && !several && !grouped && shows_one_draw(sub, &draw)) {
-        sub->shading->samples += DIP_SUB_BLOCK_PIXELS * (unsigned)sub->sample_count;
-        const unsigned left =
-            shares(sub->shading) ? share_pixels(sub, ALL_PIXELS) : (unsigned)ALL_PIXELS;
-        push_one_draw(sub, left, draw);
-    } else {
-        prefetch_planes(sub);
-        collect_shared(sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(sub));
+// Collects sub-block number `quarter` of a block. grouped: it may hold triangles that were drawn in
+// sample groups. one_draw: all its pixels lie in the target and show `draw` alone. This is a
+// function of its own so that the loop over sub-blocks keeps its values in registers.
+static __attribute__((noinline)) void collect_sub_block(DipTileShading *shading,
+                                                        const uint32_t *ids, int block, int quarter,
+                                                        bool grouped, bool one_draw,
+                                                        uint32_t draw) {
+    SubBlock sub; // `patches` is filled only if it is needed
+    sub.shading = shading;
+    sub.ids = ids;
+    sub.sample_count = shading->tile->pattern->count;
+    sub.block = block;
+    sub.quarter = quarter;
+    sub.x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * DIP_SUB_BLOCK;
+    sub.y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * DIP_SUB_BLOCK;
+    if (one_draw) {
+        push_one_draw(&sub, share_pixels(&sub, ALL_PIXELS), draw);
+        return;
+    }
+    const bool several =
+        sub.sample_count > 1 && multi_fragment_pixels(ids, sub.sample_count, DIP_BLOCK_PIXELS);
+    const bool within = sub.x0 + 4 <= shading->width && sub.y0 + 4 <= shading->height;
+    prefetch_planes(&sub);
+    collect_shared(&sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(&sub));
+}
+
+// Collects a block. The loop itself collects the sub-blocks that show one draw alone. They are the
+// most where triangles are large.
+VEC_INLINE void collect_block(DipTileShading *shading, int block, bool grouped) {
+    const int sample_count = shading->tile->pattern->count;
+    const uint32_t *ids = shading->tile->id + dip_tile_index(shading->tile, block, 0);
+    const int x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK;
+    for (int quarter = 0; quarter < 4; quarter++, ids += DIP_SUB_BLOCK_PIXELS) {
+        const int x = x0 + (quarter & 1) * DIP_SUB_BLOCK;
+        const int y = y0 + (quarter >> 1) * DIP_SUB_BLOCK;
+        uint32_t draw = 0;
+        const bool one_draw =
+            !grouped && x + DIP_SUB_BLOCK <= shading->width &&
+            y + DIP_SUB_BLOCK <= shading->height &&
+            !(sample_count > 1 && multi_fragment_pixels(ids, sample_count, DIP_BLOCK_PIXELS)) &&
+            shows_one_draw(shading, ids, &draw);
+        shading->samples += one_draw ? DIP_SUB_BLOCK_PIXELS * (unsigned)sample_count : 0;
+        if (one_draw && !shares(shading)) {
+            const int32_t centre =
+                (y * DIP_TILE + x) | 128 << DIP_POSITION_SUB_X | 128 << DIP_POSITION_SUB_Y;
+            push_whole(shading, ids, centre, draw);
+        } else {
+            collect_sub_block(shading, ids, block, quarter, grouped, one_draw, draw);
+        }
     }
 }
 
@@ -531,17 +567,6 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
             clear_block(shading, block);
             continue;
         }
-        const uint32_t *ids = tile->id + dip_tile_index(tile, block, 0);
-        for (int quarter = 0; quarter < 4; quarter++) {
-            SubBlock sub; // `patches` is filled only if it is needed
-            sub.shading = shading;
-            sub.ids = ids + quarter * DIP_SUB_BLOCK_PIXELS;
-            sub.sample_count = tile->pattern->count;
-            sub.block = block;
-            sub.quarter = quarter;
-            sub.x0 = block % DIP_TILE_BLOCKS * DIP_BLOCK + (quarter & 1) * DIP_SUB_BLOCK;
-            sub.y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK + (quarter >> 1) * DIP_SUB_BLOCK;
-            collect_sub_block(&sub, all_grouped || tile->grouped >> block & 1);
-        }
+        collect_block(shading, block, all_grouped || tile->grouped >> block & 1);
     }
 }
