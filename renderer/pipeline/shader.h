@@ -101,7 +101,6 @@ typedef void DipSampleShadow(DipFragmentBatch *batch, const DipShadowMap *map, c
                              const float *v, const float *z, float *out);
 
 struct DipFragmentBatch {
-    int count; // 1..DIP_FRAGMENT_BATCH
     // Varyings at the fragment's position, and their derivatives per pixel along x and y. Varyings
     // and derivatives that the draw does not have are 0. The shader may write to the varyings that
     // the draw declares as computed (computed_varying_count in pipeline.h).
@@ -110,19 +109,6 @@ struct DipFragmentBatch {
     float varying_dy[DIP_MAX_VARYINGS][DIP_FRAGMENT_BATCH];
     float x[DIP_FRAGMENT_BATCH]; // the shaded position, in pixels from the target's top left corner
     float y[DIP_FRAGMENT_BATCH];
-    // 1 if the fragment lies on a front face (DipCull in pipeline.h), and 0 if it lies on a back
-    // face. Only draws whose state sets reads_front (state.h) have it; for others it is 0.
-    uint8_t front[DIP_FRAGMENT_BATCH];
-    const DipSampler *samplers; // samplers of the draw
-    const void *uniforms;       // uniforms of the draw
-    DipSampleColour *sample_colour;
-    DipSampleColours *sample_colours;
-    DipSampleAlpha *sample_alpha;
-    DipSampleAlphaSlope *sample_alpha_slope;
-    DipSampleTarget *sample_target;
-    DipSampleShadow *sample_shadow;
-    const float *srgb_light; // linear light of the 256 8-bit sRGB values, for sample_target
-    DipShaderWork work;      // a shader may add to work.counts
     // A fragment shader writes linear light. The pipeline clamps it to 0..1 for targets of 8 bits.
     // What it does not write is black.
     float colour[3][DIP_FRAGMENT_BATCH];
@@ -131,6 +117,20 @@ struct DipFragmentBatch {
     // A clip shader writes 1 where the surface exists and 0, as at first, where it is cut away. In
     // a pass with alpha_to_coverage, it writes a number of samples.
     uint8_t keep[DIP_FRAGMENT_BATCH];
+    // 1 if the fragment lies on a front face (DipCull in pipeline.h), and 0 if it lies on a back
+    // face. Only draws whose state sets reads_front (state.h) have it; for others it is 0.
+    uint8_t front[DIP_FRAGMENT_BATCH];
+    int count;                  // 1..DIP_FRAGMENT_BATCH
+    const DipSampler *samplers; // samplers of the draw
+    const void *uniforms;       // uniforms of the draw
+    DipSampleColour *sample_colour;
+    DipSampleColours *sample_colours;
+    DipSampleAlpha *sample_alpha;
+    DipSampleAlphaSlope *sample_alpha_slope;
+    DipSampleTarget *sample_target;
+    DipSampleShadow *sample_shadow;
+    const float *srgb_light;      // linear light of the 256 8-bit sRGB values, for sample_target
+    DipShaderWork work;           // a shader may add to work.counts
     struct DipShaderGuard *guard; // the pipeline's own
 };
 

@@ -18,7 +18,7 @@ enum { ROOM = DIP_SETUP_BATCH + DIP_BATCH_ALIGN };
 
 // The triangles that rejection keeps. Their vertices are reordered so that the area is positive.
 typedef struct Candidates {
-    int32_t corner[3][ROOM];
+    _Alignas(DIP_CACHE_LINE) int32_t corner[3][ROOM];
     int32_t x[3][ROOM];
     int32_t y[3][ROOM];
     int32_t patch[ROOM];

@@ -3,6 +3,7 @@
 #ifndef DIP_RENDERER_PIPELINE_RASTER_FRAGMENTS_H
 #define DIP_RENDERER_PIPELINE_RASTER_FRAGMENTS_H
 
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/pattern.h"
 #include "renderer/pipeline/raster/tile.h"
 #include "renderer/pipeline/raster/triangle.h"
@@ -26,12 +27,13 @@ enum { DIP_LIST_ROOM = DIP_FRAGMENT_BATCH + 16 };
 
 // Fragments of one draw that wait to be shaded. Kernels may read the arrays to their end.
 typedef struct DipFragmentList {
-    int count;
-    uint32_t triangle[DIP_LIST_ROOM]; // index into the geometry's triangles
+    // Index into the geometry's triangles.
+    _Alignas(DIP_CACHE_LINE) uint32_t triangle[DIP_LIST_ROOM];
     uint32_t position[DIP_LIST_ROOM]; // the fragment's position, in the bits described above
     // Bit s: the fragment holds sample s. The array is unused in lists of whole sub-blocks, whose
     // fragments hold all samples.
     uint32_t samples[DIP_LIST_ROOM];
+    int count;
 } DipFragmentList;
 
 // A sub-block in which a triangle's fragments wait for the clip test.

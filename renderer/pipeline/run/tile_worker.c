@@ -392,8 +392,7 @@ bool dip_tile_worker_make_light(DipTileWorker *worker) {
 }
 
 static void free_lists(DipTileShading *shading) {
-    free(shading->lists);
-    free(shading->whole_lists);
+    free(shading->list_memory);
     free(shading->active);
     free(shading->is_active);
 }
@@ -417,9 +416,13 @@ bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count) {
     DipTileShading *shading = &worker->shading;
     const size_t count = (size_t)draw_count;
     free_lists(shading);
-    shading->lists = calloc(count, sizeof *shading->lists);
-    shading->whole_lists = calloc(count, sizeof *shading->whole_lists);
+    // Memory that was cleared when it was allocated costs no pages for lists that are not used, but
+    // it is not aligned.
+    shading->list_memory = calloc(2 * count + 1, sizeof *shading->lists);
+    shading->lists = (DipFragmentList *)(((uintptr_t)shading->list_memory + DIP_CACHE_LINE - 1) /
+                                         DIP_CACHE_LINE * DIP_CACHE_LINE);
+    shading->whole_lists = shading->lists + count;
     shading->active = calloc(count, sizeof *shading->active);
     shading->is_active = calloc(count, sizeof *shading->is_active);
-    return shading->lists && shading->whole_lists && shading->active && shading->is_active;
+    return shading->list_memory && shading->active && shading->is_active;
 }

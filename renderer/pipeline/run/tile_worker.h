@@ -3,6 +3,7 @@
 #ifndef DIP_RENDERER_PIPELINE_RUN_TILE_WORKER_H
 #define DIP_RENDERER_PIPELINE_RUN_TILE_WORKER_H
 
+#include "renderer/base/pages.h"
 #include "renderer/base/srgb.h"
 #include "renderer/pipeline/geometry/geometry.h"
 #include "renderer/pipeline/kernels/kernels.h"
@@ -37,11 +38,11 @@ typedef struct DipTilePass {
 // The memory that one thread writes while it runs geometry jobs and draws tiles.
 typedef struct DipTileWorker {
     const DipTilePass *pass;
-    DipGeometryScratch geometry;
+    _Alignas(DIP_CACHE_LINE) DipGeometryScratch geometry;
     DipTile tile;
     DipTileShading shading;
-    DipFragmentBatch batch;
-    DipFragmentBatch clip_batch;
+    _Alignas(DIP_CACHE_LINE) DipFragmentBatch batch;
+    _Alignas(DIP_CACHE_LINE) DipFragmentBatch clip_batch;
     bool batch_has_front; // `batch.front` may hold numbers other than 0
     bool clip_batch_has_front;
     DipShaderGuard guard;      // of `batch`
@@ -49,7 +50,7 @@ typedef struct DipTileWorker {
     DipFragmentList clip_list;
     DipClipQueue clip_queue;
     DipClipTest clip; // of plain draws
-    DipEncodedBatch encoded;
+    _Alignas(DIP_CACHE_LINE) DipEncodedBatch encoded;
     uint16_t *light16;  // a tile's light for a DipTileDone; exists once a pass has handed light
     DipMergeTile merge; // its arrays exist once a merged pass has been drawn
     bool merging;       // the tile is being merged

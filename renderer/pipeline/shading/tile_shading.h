@@ -61,6 +61,7 @@ struct DipTileShading {
     DipFlushList *flush;           // called when one of `lists` holds a batch
     DipFlushList *flush_whole;     // called when one of `whole_lists` holds a batch
     void *context;                 // for use by `flush` and `flush_whole`
+    void *list_memory;             // of both kinds of lists
     DipFragmentList *lists;        // one per draw
     DipFragmentList *whole_lists;  // one per draw, for whole sub-blocks of 16 fragments
     uint32_t *active;              // draws whose lists this tile has used, in order of first use

@@ -8,6 +8,7 @@
 #ifndef DIP_RENDERER_PIPELINE_TEXTURE_READ_LIST_SIMD_H
 #define DIP_RENDERER_PIPELINE_TEXTURE_READ_LIST_SIMD_H
 
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/shader.h"
 #include "renderer/pipeline/texture/address_simd.h"
 #include "renderer/pipeline/texture/footprint_simd.h"
@@ -309,12 +310,12 @@ enum { MOST_PROBES = 16, MOST_READS = 2 * MOST_PROBES };
 // The bilinear reads of a batch: for each vector those in the finer level, then those in the
 // coarser one.
 typedef struct ReadList {
-    int near[VECTORS]; // number of reads of each vector in the finer level
-    int far[VECTORS];
-    int32_t index[VECTORS * MOST_READS][DIP_LANES]; // the quads
+    _Alignas(DIP_CACHE_LINE) int32_t index[VECTORS * MOST_READS][DIP_LANES]; // the quads
     // Positions between the texels in 1/256 texel: x in the lowest 8 bits, y in the highest 8 bits.
     // In between are marks like FLAT_X, if the mode marks positions.
     int32_t between[VECTORS * MOST_READS][DIP_LANES];
+    int near[VECTORS]; // number of reads of each vector in the finer level
+    int far[VECTORS];
 } ReadList;
 
 // Lists the reads of vector n in a level, from number `first` on, and returns how many these are.
