@@ -3,6 +3,7 @@
 
 #include "renderer/base/fp_mode.h"
 #include "renderer/base/assert.h"
+#include "renderer/base/pages.h"
 #include "renderer/pipeline/patch.h"
 
 #include <math.h>
@@ -216,7 +217,7 @@ static void bound_chunks(DipMesh *mesh) {
 }
 
 static void *copy_array(const void *from, size_t size_bytes) {
-    void *copy = malloc(size_bytes + 1);
+    void *copy = dip_lines_alloc(size_bytes + 1);
     if (copy) {
         memcpy(copy, from, size_bytes);
     }
@@ -226,7 +227,12 @@ static void *copy_array(const void *from, size_t size_bytes) {
 // Finds the patches of triangles that join smoothly. In a mesh that can be updated, each triangle
 // is a patch.
 static bool find_patches(DipMesh *mesh, const DipMeshData *data, bool updatable) {
-    mesh->patches = calloc((size_t)mesh->triangle_count + DIP_BATCH_ALIGN, sizeof *mesh->patches);
+    const size_t room_bytes =
+        ((size_t)mesh->triangle_count + DIP_BATCH_ALIGN) * sizeof *mesh->patches;
+    mesh->patches = dip_lines_alloc(room_bytes);
+    if (mesh->patches) {
+        memset(mesh->patches, 0, room_bytes);
+    }
     if (mesh->patches && updatable) {
         mesh->patch_count = mesh->triangle_count;
         for (uint32_t t = 0; t < mesh->triangle_count; t++) {
@@ -253,8 +259,8 @@ static bool allocate_split(Splitter *splitter) {
     const size_t vertices = 3 * triangles + chunks * DIP_BATCH_ALIGN;
     splitter->local = calloc((size_t)splitter->data->vertex_count + 1, sizeof *splitter->local);
     splitter->source = malloc((vertices + 1) * sizeof *splitter->source);
-    splitter->mesh->chunks = malloc(chunks * sizeof *splitter->mesh->chunks);
-    splitter->mesh->indices = malloc(3 * (triangles + chunks * DIP_BATCH_ALIGN));
+    splitter->mesh->chunks = dip_lines_alloc(chunks * sizeof *splitter->mesh->chunks);
+    splitter->mesh->indices = dip_lines_alloc(3 * (triangles + chunks * DIP_BATCH_ALIGN));
     return splitter->local && splitter->source && splitter->mesh->chunks && splitter->mesh->indices;
 }
 
@@ -270,8 +276,8 @@ static DipMesh *create(const DipMeshData *data, bool updatable, DipError *err) {
         mesh->triangle_count = data->index_count / 3;
         split(&splitter);
         const size_t floats = (size_t)mesh->vertex_total * (size_t)mesh->attribute_count;
-        mesh->attributes = malloc((floats + 1) * sizeof *mesh->attributes);
-        mesh->groups = malloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
+        mesh->attributes = dip_lines_alloc((floats + 1) * sizeof *mesh->attributes);
+        mesh->groups = dip_lines_alloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
         made = mesh->attributes && mesh->groups && find_patches(mesh, data, updatable) &&
                (!updatable || keep_source(mesh, &splitter));
     }
@@ -366,12 +372,12 @@ size_t dip_mesh_bytes(const DipMesh *mesh) {
 
 void dip_mesh_destroy(DipMesh **mesh) {
     if (*mesh) {
-        free((*mesh)->chunks);
-        free((*mesh)->groups);
-        free((*mesh)->attributes);
-        free((*mesh)->indices);
-        free((*mesh)->patches);
-        free((*mesh)->source);
+        dip_lines_free((*mesh)->chunks);
+        dip_lines_free((*mesh)->groups);
+        dip_lines_free((*mesh)->attributes);
+        dip_lines_free((*mesh)->indices);
+        dip_lines_free((*mesh)->patches);
+        dip_lines_free((*mesh)->source);
         free(*mesh);
         *mesh = NULL;
     }
