@@ -553,6 +553,16 @@ VEC_INLINE bool is_drawn(const DipTile *tile, int block) {
            y < DIP_TILE - tile->bottom;
 }
 
+// Prefetches the target's pixels of a block and of the next one, which share cache lines. Their
+// colours are stored when there is a batch of fragments, and these stores would wait.
+static void prefetch_pixels(const DipTileShading *shading, int block) {
+    const int x = block % DIP_TILE_BLOCKS * DIP_BLOCK;
+    const int y0 = block / DIP_TILE_BLOCKS * DIP_BLOCK;
+    for (int y = y0; y < y0 + DIP_BLOCK && y < shading->height; y++) {
+        __builtin_prefetch(shading->pixels + (size_t)y * shading->stride + x, 1);
+    }
+}
+
 void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
     const DipTile *tile = shading->tile;
     const bool all_grouped = shading->groups && shading->groups_shade_all;
@@ -566,6 +576,9 @@ void DIP_KERNEL(dip_kernel_collect)(DipTileShading *shading) {
         if (!(tile->touched >> block & 1)) {
             clear_block(shading, block);
             continue;
+        }
+        if (block % 2 == 0 && !shading->light16) {
+            prefetch_pixels(shading, block);
         }
         collect_block(shading, block, all_grouped || tile->grouped >> block & 1);
     }
