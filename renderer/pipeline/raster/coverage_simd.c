@@ -4,6 +4,8 @@
 #include "renderer/pipeline/raster/hiding_simd.h"
 #include "renderer/pipeline/raster/in_tile_simd.h"
 
+#include <stddef.h>
+
 // Draws an opaque triangle in sub-block n: stores the covered samples in which it hides the stored
 // depths. inside: the triangle covers all samples of the sub-block.
 VEC_INLINE void draw_sub_block(const InTile *in, const Region *region, int n, bool inside,
@@ -51,12 +53,16 @@ VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_c
 // the pixels of so few sub-blocks.
 enum { SMALL_BOX = 10 };
 
+// Values of the three edges, and one that is not used.
+typedef int32_t EdgeInts __attribute__((vector_size(4 * sizeof(int32_t))));
+typedef int64_t EdgeLongs __attribute__((vector_size(4 * sizeof(int64_t))));
+
 // A small triangle in a tile with one sample per pixel. The edge values are those of InTile.
 typedef struct SmallTriangle {
     uint32_t draw;
     Vi edge[3][VECTORS]; // at the pixels of the current sub-block
-    Vi right[3];         // what a step of one sub-block to the right adds
-    Vi down[3];          // what a step down and back to the box's first column adds
+    EdgeInts right;      // what a step of one sub-block to the right adds
+    EdgeInts down;       // what a step down and back to the box's first column adds
     Vf depth_lane[VECTORS];
     Vf depth_sample;
     Vf depth_min;
@@ -68,18 +74,25 @@ typedef struct SmallTriangle {
 VEC_INLINE void set_small_edges(SmallTriangle *small, const DipTriangle *triangle, const Box *box,
                                 const DipSamplePattern *pattern, int x, int y) {
     const int64_t limit = (int64_t)1 << 38;
-    const int64_t at_x = (int64_t)x * DIP_SUBPIXELS + pattern->x[0];
-    const int64_t at_y = (int64_t)y * DIP_SUBPIXELS + pattern->y[0];
+    EdgeLongs value;
+    EdgeInts a;
+    EdgeInts b;
+    memcpy(&value, (const char *)triangle + offsetof(DipTriangle, c), sizeof value);
+    memcpy(&a, (const char *)triangle + offsetof(DipTriangle, a), sizeof a);
+    memcpy(&b, (const char *)triangle + offsetof(DipTriangle, b), sizeof b);
+    value += __builtin_convertvector(a, EdgeLongs) * ((int64_t)x * DIP_SUBPIXELS + pattern->x[0]) +
+             __builtin_convertvector(b, EdgeLongs) * ((int64_t)y * DIP_SUBPIXELS + pattern->y[0]);
+    const EdgeLongs above = value > limit;
+    const EdgeLongs below = value < -limit;
+    value = (above & limit) | (below & -limit) | (value & ~(above | below));
+    const EdgeInts corner = __builtin_convertvector(value >> 8, EdgeInts);
+    small->right = a * DIP_SUB_BLOCK;
+    small->down = (b - a * (box->x1 - box->x0 + 1)) * DIP_SUB_BLOCK;
     for (int i = 0; i < 3; i++) {
-        const int32_t a = triangle->a[i];
-        const int32_t b = triangle->b[i];
-        const int64_t value = triangle->c[i] + (a * at_x + b * at_y);
-        const int32_t corner = (int32_t)(max_i64(min_i64(value, limit), -limit) >> 8);
-        small->right[i] = vi_splat(a * DIP_SUB_BLOCK);
-        small->down[i] = vi_splat((b - a * (box->x1 - box->x0 + 1)) * DIP_SUB_BLOCK);
         for (int v = 0; v < VECTORS; v++) {
-            small->edge[i][v] = vi_splat(a) * vi_load(lane_x + v * DIP_LANES) +
-                                (vi_splat(b) * vi_load(lane_y + v * DIP_LANES) + vi_splat(corner));
+            small->edge[i][v] =
+                vi_splat(a[i]) * vi_load(lane_x + v * DIP_LANES) +
+                (vi_splat(b[i]) * vi_load(lane_y + v * DIP_LANES) + vi_splat(corner[i]));
         }
     }
 }
@@ -98,10 +111,10 @@ VEC_INLINE void set_small_depths(SmallTriangle *small, const DipTriangle *triang
     small->depth_max = vf_splat(triangle->z_max);
 }
 
-VEC_INLINE void step_small(SmallTriangle *small, const Vi by[3]) {
+VEC_INLINE void step_small(SmallTriangle *small, EdgeInts by) {
     for (int i = 0; i < 3; i++) {
         for (int v = 0; v < VECTORS; v++) {
-            small->edge[i][v] += by[i];
+            small->edge[i][v] += vi_splat(by[i]);
         }
     }
 }
