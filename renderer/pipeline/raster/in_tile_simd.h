@@ -159,11 +159,19 @@ typedef struct Box {
     int x0, y0, x1, y1;
 } Box;
 
+// Returns the sub-block of a pixel along one axis. The pixel is not negative, which saves the
+// rounding of negative quotients.
+VEC_INLINE int sub_block_of(int pixel) {
+    return (int)((unsigned)pixel / DIP_SUB_BLOCK);
+}
+
 VEC_INLINE Box box_of(const DipTriangle *triangle, const DipTile *tile) {
-    return (Box){max_int(triangle->x0 - tile->x0, tile->left) / DIP_SUB_BLOCK,
-                 max_int(triangle->y0 - tile->y0, tile->top) / DIP_SUB_BLOCK,
-                 min_int(triangle->x1 - tile->x0, DIP_TILE - 1 - tile->right) / DIP_SUB_BLOCK,
-                 min_int(triangle->y1 - tile->y0, DIP_TILE - 1 - tile->bottom) / DIP_SUB_BLOCK};
+    return (Box){
+        sub_block_of(max_int(triangle->x0 - tile->x0, tile->left)),
+        sub_block_of(max_int(triangle->y0 - tile->y0, tile->top)),
+        sub_block_of(min_int(triangle->x1 - tile->x0, DIP_TILE - 1 - tile->right)),
+        sub_block_of(min_int(triangle->y1 - tile->y0, DIP_TILE - 1 - tile->bottom)),
+    };
 }
 
 // Returns the bits of the region's sub-blocks in columns x0..x1 and rows y0..y1 of the tile.
