@@ -386,7 +386,6 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
     add_chunk_triangles(run, chunk);
 }
 
-// Prefetches `size_bytes` bytes.
 static inline void prefetch(const void *from, size_t size_bytes) {
     const uintptr_t first = (uintptr_t)from / DIP_CACHE_LINE * DIP_CACHE_LINE;
     for (uintptr_t line = first; line < (uintptr_t)from + size_bytes; line += DIP_CACHE_LINE) {
@@ -394,7 +393,8 @@ static inline void prefetch(const void *from, size_t size_bytes) {
     }
 }
 
-// Prefetches the vertices and triangles of a chunk.
+// Prefetches the vertices and triangles of a chunk that is set up next. Its arrays are short and
+// lie far from each other, so the processor does not foresee these reads.
 static void prefetch_chunk(const DipMesh *mesh, const DipChunk *chunk) {
     for (int a = 0; a < mesh->attribute_count; a++) {
         prefetch(mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex,
@@ -461,7 +461,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         if (c + 1 < end) {
             const DipVisibleChunk next = geometry->visible[c + 1];
             const DipMesh *mesh = geometry->pass->draws[next.draw].mesh;
-            if (&mesh->chunks[next.chunk] != chunk) {
+            if (&mesh->chunks[next.chunk] != chunk) { // otherwise another copy of the same object
                 prefetch_chunk(mesh, &mesh->chunks[next.chunk]);
             }
         }

@@ -277,7 +277,8 @@ static DipMesh *create(const DipMeshData *data, bool updatable, DipError *err) {
         split(&splitter);
         const size_t floats = (size_t)mesh->vertex_total * (size_t)mesh->attribute_count;
         mesh->attributes = dip_lines_alloc((floats + 1) * sizeof *mesh->attributes);
-        mesh->groups = dip_lines_alloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
+        mesh->groups =
+            dip_lines_alloc((mesh->chunk_count / DIP_GROUP_CHUNKS + 1) * sizeof *mesh->groups);
         made = mesh->attributes && mesh->groups && find_patches(mesh, data, updatable) &&
                (!updatable || keep_source(mesh, &splitter));
     }

@@ -360,16 +360,21 @@ VEC_INLINE void store_planes(const TriangleVector *tri, const DipSetupTarget *ta
 // was last touched in the frame before, so it is seldom in the caches, and stores to it would wait.
 enum { PREFETCH_AHEAD = 16 };
 
-// Prefetches the space of one vector of triangles and of their planes, to write to it.
+VEC_INLINE void prefetch_to_write(uintptr_t first, size_t size_bytes) {
+    for (size_t b = 0; b < size_bytes; b += DIP_CACHE_LINE) {
+        __builtin_prefetch((const void *)(first + b), 1);
+    }
+}
+
+// Prefetches the space of a vector of triangles and of their planes, PREFETCH_AHEAD triangles after
+// those at `triangles` and `planes`. It may lie beyond the end of the arrays.
 VEC_INLINE void prefetch_space(const DipTriangle *triangles, const float *planes,
                                int plane_stride) {
-    for (size_t b = 0; b < DIP_HALF_LANES * sizeof *triangles; b += DIP_CACHE_LINE) {
-        __builtin_prefetch((const char *)triangles + b, 1);
-    }
-    const size_t size_bytes = DIP_HALF_LANES * (size_t)plane_stride * sizeof *planes;
-    for (size_t b = 0; b < size_bytes; b += DIP_CACHE_LINE) {
-        __builtin_prefetch((const char *)planes + b, 1);
-    }
+    const size_t plane_bytes = (size_t)plane_stride * sizeof *planes;
+    prefetch_to_write((uintptr_t)triangles + PREFETCH_AHEAD * sizeof *triangles,
+                      DIP_HALF_LANES * sizeof *triangles);
+    prefetch_to_write((uintptr_t)planes + PREFETCH_AHEAD * plane_bytes,
+                      DIP_HALF_LANES * plane_bytes);
 }
 
 int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBatch *batch,
@@ -383,13 +388,12 @@ int DIP_KERNEL(dip_kernel_setup)(const DipSetupTarget *target, const DipSetupBat
         return 0;
     }
     pad(&candidates, count);
-    const size_t plane_stride = (size_t)target->plane_stride;
     for (int i = 0; i < count; i += DIP_HALF_LANES) {
-        const size_t ahead = (size_t)i + PREFETCH_AHEAD;
-        prefetch_space(triangles + ahead, planes + ahead * plane_stride, target->plane_stride);
+        float *const planes_of = planes + (size_t)i * (size_t)target->plane_stride;
+        prefetch_space(triangles + i, planes_of, target->plane_stride);
         const TriangleVector tri = load_triangles(&candidates, i);
         store_triangles(&tri, batch->screen, target->draw, triangles + i);
-        store_planes(&tri, target, batch, planes + (size_t)i * plane_stride);
+        store_planes(&tri, target, batch, planes_of);
     }
     return count;
 }

@@ -1,8 +1,8 @@
 // Walks the bins of a tile.
 #include "renderer/pipeline/geometry/visit.h"
 
-// A walk prefetches this many triangles ahead. Drawing this many takes about as long as a read from
-// another core's cache.
+// A walk prefetches this many triangles ahead, at most DIP_BIN_BLOCK. Drawing this many takes about
+// as long as a read from memory.
 enum { PREFETCH_AHEAD = 6 };
 
 // The state of a walk along a bin's triangles.
@@ -43,14 +43,14 @@ static uint32_t next_of(const DipGeometry *geometry, BinWalk *walk) {
             __builtin_prefetch(&geometry->blocks[walk->block->next]);
         }
     }
+    // The triangle to prefetch may be in the next block.
     const uint32_t ahead = walk->entry + PREFETCH_AHEAD;
     if (ahead < walk->count) {
         prefetch(&geometry->triangles[walk->block->triangle[ahead]]);
     } else if (walk->block != walk->last) {
-        // The next block has an entry ahead - DIP_BIN_BLOCK if
         const DipBinBlock *next = &geometry->blocks[walk->block->next];
-        if (next != walk->last || ahead - walk->count < walk->last_count) {
-            prefetch(&geometry->triangles[next->triangle[ahead - walk->count]]);
+        if (next != walk->last || ahead - DIP_BIN_BLOCK < walk->last_count) {
+            prefetch(&geometry->triangles[next->triangle[ahead - DIP_BIN_BLOCK]]);
         }
     }
     return walk->block->triangle[walk->entry++];

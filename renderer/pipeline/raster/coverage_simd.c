@@ -53,7 +53,7 @@ VEC_INLINE void draw_region(const InTile *in, const Region *region, int sample_c
 // the pixels of so few sub-blocks.
 enum { SMALL_BOX = 10 };
 
-// Values of the three edges, and one that is not used.
+// Values of the three edges, and a fourth that is 0 or is not used.
 typedef int32_t EdgeInts __attribute__((vector_size(4 * sizeof(int32_t))));
 typedef int64_t EdgeLongs __attribute__((vector_size(4 * sizeof(int64_t))));
 
@@ -80,6 +80,9 @@ VEC_INLINE void set_small_edges(SmallTriangle *small, const DipTriangle *triangl
     memcpy(&value, (const char *)triangle + offsetof(DipTriangle, c), sizeof value);
     memcpy(&a, (const char *)triangle + offsetof(DipTriangle, a), sizeof a);
     memcpy(&b, (const char *)triangle + offsetof(DipTriangle, b), sizeof b);
+    const EdgeInts edges = {-1, -1, -1, 0};
+    a &= edges;
+    b &= edges;
     value += __builtin_convertvector(a, EdgeLongs) * ((int64_t)x * DIP_SUBPIXELS + pattern->x[0]) +
              __builtin_convertvector(b, EdgeLongs) * ((int64_t)y * DIP_SUBPIXELS + pattern->y[0]);
     const EdgeLongs above = value > limit;

@@ -412,15 +412,20 @@ void dip_tile_worker_destroy(DipTileWorker **worker_pointer) {
     }
 }
 
+// Returns the first cache line that starts in a block of memory.
+static void *first_line(void *memory) {
+    const uintptr_t offset = (uintptr_t)memory % DIP_CACHE_LINE;
+    return (char *)memory + (offset ? DIP_CACHE_LINE - offset : 0);
+}
+
 bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count) {
     DipTileShading *shading = &worker->shading;
     const size_t count = (size_t)draw_count;
     free_lists(shading);
-    // Memory that was cleared when it was allocated costs no pages for lists that are not used, but
-    // it is not aligned.
+    // Memory that the system has cleared costs no pages for lists that are not used, but it is not
+    // aligned.
     shading->list_memory = calloc(2 * count + 1, sizeof *shading->lists);
-    shading->lists = (DipFragmentList *)(((uintptr_t)shading->list_memory + DIP_CACHE_LINE - 1) /
-                                         DIP_CACHE_LINE * DIP_CACHE_LINE);
+    shading->lists = first_line(shading->list_memory);
     shading->whole_lists = shading->lists + count;
     shading->active = calloc(count, sizeof *shading->active);
     shading->is_active = calloc(count, sizeof *shading->is_active);
