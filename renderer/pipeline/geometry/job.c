@@ -355,7 +355,32 @@ static void add_chunk_triangles(JobRun *run, const DipChunk *chunk) {
     }
 }
 
-static void run_chunk(JobRun *run, const DipChunk *chunk) {
+static inline void prefetch(const void *from, size_t size_bytes) {
+    const uintptr_t first = (uintptr_t)from / DIP_CACHE_LINE * DIP_CACHE_LINE;
+    for (uintptr_t line = first; line < (uintptr_t)from + size_bytes; line += DIP_CACHE_LINE) {
+        __builtin_prefetch((const void *)line);
+    }
+}
+
+// Prefetches the vertices and triangles of the chunk that is set up after the current one. Its
+// arrays are short and lie far from each other, so the processor does not foresee these reads.
+static void prefetch_chunk(const JobRun *run, const DipVisibleChunk *next,
+                           const DipChunk *current) {
+    const DipMesh *mesh = run->geometry->pass->draws[next->draw].mesh;
+    const DipChunk *chunk = &mesh->chunks[next->chunk];
+    if (chunk == current) {
+        return; // two draws of the same object
+    }
+    for (int a = 0; a < mesh->attribute_count; a++) {
+        prefetch(mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex,
+                 chunk->vertex_count * sizeof *mesh->attributes);
+    }
+    prefetch(mesh->indices + chunk->first_index, 3 * (size_t)dip_corner_stride(chunk));
+    prefetch(mesh->patches + chunk->first_triangle, chunk->triangle_count * sizeof *mesh->patches);
+}
+
+// Sets up the triangles of a chunk. next: the chunk that comes after it in the job, or NULL.
+static void run_chunk(JobRun *run, const DipChunk *chunk, const DipVisibleChunk *next) {
     const DipMesh *mesh = run->draw->mesh;
     DipGeometryScratch *scratch = run->scratch;
     const float *in[DIP_MAX_ATTRIBUTES];
@@ -383,25 +408,10 @@ static void run_chunk(JobRun *run, const DipChunk *chunk) {
     run->draw->vertex_shader(&batch);
     run->kernels->dip_kernel_project(&run->geometry->mapping, (int)chunk->vertex_count, clip,
                                      &scratch->screen);
+    if (next) {
+        prefetch_chunk(run, next, chunk);
+    }
     add_chunk_triangles(run, chunk);
-}
-
-static inline void prefetch(const void *from, size_t size_bytes) {
-    const uintptr_t first = (uintptr_t)from / DIP_CACHE_LINE * DIP_CACHE_LINE;
-    for (uintptr_t line = first; line < (uintptr_t)from + size_bytes; line += DIP_CACHE_LINE) {
-        __builtin_prefetch((const void *)line);
-    }
-}
-
-// Prefetches the vertices and triangles of a chunk that is set up next. Its arrays are short and
-// lie far from each other, so the processor does not foresee these reads.
-static void prefetch_chunk(const DipMesh *mesh, const DipChunk *chunk) {
-    for (int a = 0; a < mesh->attribute_count; a++) {
-        prefetch(mesh->attributes + (size_t)a * mesh->vertex_total + chunk->first_vertex,
-                 chunk->vertex_count * sizeof *mesh->attributes);
-    }
-    prefetch(mesh->indices + chunk->first_index, 3 * (size_t)dip_corner_stride(chunk));
-    prefetch(mesh->patches + chunk->first_triangle, chunk->triangle_count * sizeof *mesh->patches);
 }
 
 static DipSetupTarget setup_target(const DipGeometry *geometry) {
@@ -458,15 +468,8 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         run.target.varying_count = run.draw->varying_count;
         run.target.repeating_varyings = run.draw->repeating_varyings;
         const DipChunk *chunk = &run.draw->mesh->chunks[visible.chunk];
-        if (c + 1 < end) {
-            const DipVisibleChunk next = geometry->visible[c + 1];
-            const DipMesh *mesh = geometry->pass->draws[next.draw].mesh;
-            if (&mesh->chunks[next.chunk] != chunk) { // otherwise another copy of the same object
-                prefetch_chunk(mesh, &mesh->chunks[next.chunk]);
-            }
-        }
         run.job.triangles_in += chunk->triangle_count;
-        run_chunk(&run, chunk);
+        run_chunk(&run, chunk, c + 1 < end ? &geometry->visible[c + 1] : NULL);
     }
     for (size_t w = 0; w < words; w++) {
         geometry->occupied[w * DIP_MAX_JOBS + (size_t)job_index] = scratch->occupied[w];
