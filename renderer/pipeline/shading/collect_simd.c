@@ -57,6 +57,10 @@ static unsigned pixels_in_groups(const SubBlock *sub, const uint32_t *draws, uns
 }
 
 static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]) {
+    if (sub->shading->one_draw) {
+        memset(draws, 0, DIP_SUB_BLOCK_PIXELS * sizeof *draws);
+        return;
+    }
     for (int v = 0; v < VECTORS; v++) {
         const Vi ids = vi_load((const int32_t *)sub->ids + v * DIP_LANES);
         vi_store((int32_t *)draws + v * DIP_LANES,
@@ -99,9 +103,44 @@ static void collect_shared(SubBlock *sub, bool several, bool grouped, unsigned i
     }
 }
 
-// Returns whether the first samples of a sub-block's pixels show the same draw, in a few triangles,
-// and sets *draw to it.
+// Planes are prefetched for sub-blocks in which more neighbouring pixels than these have different
+// triangles. Prefetching those of large triangles would cost more time than it saves.
+enum { FEW_CHANGES = 6 };
+
+// Prefetches the planes of the triangles that the first samples of the pixels show, if there are
+// many. The planes of small triangles are read once per tile, so they are seldom in the caches. The
+// fragments wait in their list until there is a batch, so the planes have time to come.
+VEC_INLINE void prefetch_planes(const DipShadingInput *input, const uint32_t *sub_block_ids) {
+    static const int32_t next[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0};
+    const int32_t *ids = (const int32_t *)sub_block_ids;
+    unsigned stay = 0; // the pixels that show no triangle or that of the next pixel
+    for (int v = 0; v < VECTORS; v++) {
+        const Vi held = vi_load(ids + v * DIP_LANES);
+        const Mask same = vi_eq(held, vi_lookup16(ids, vi_load(next + v * DIP_LANES)));
+        stay |= mask_bits(same | vi_eq(held, vi_splat(0))) << (v * DIP_LANES);
+    }
+    unsigned changes = ~stay & ALL_PIXELS;
+    if (__builtin_popcount(changes) <= FEW_CHANGES) {
+        return;
+    }
+    const size_t size_bytes = (size_t)input->plane_stride * sizeof *input->planes;
+    for (; changes; changes &= changes - 1) {
+        const size_t triangle = (size_t)ids[__builtin_ctz(changes)] - 1;
+        const char *planes = (const char *)input->planes + triangle * size_bytes;
+        for (size_t b = 0; b < size_bytes; b += DIP_CACHE_LINE) {
+            __builtin_prefetch(planes + b);
+        }
+    }
+}
+
+// Returns whether the first samples of a sub-block's pixels show the same draw, and sets *draw to
+// it. If the pass has several draws, the function finds this out only if they show a few triangles.
 VEC_INLINE bool shows_one_draw(const DipTileShading *shading, const uint32_t *ids, uint32_t *draw) {
+    if (shading->one_draw) {
+        prefetch_planes(&shading->input, ids);
+        *draw = 0;
+        return !pixels_with(ids, 0);
+    }
     if (!ids[0]) {
         return false;
     }
@@ -130,37 +169,6 @@ static void push_one_draw(const SubBlock *sub, unsigned left, uint32_t draw) {
     }
 }
 
-// Planes are prefetched for sub-blocks in which more neighbouring pixels than these have different
-// triangles. Prefetching those of large triangles would cost more time than it saves.
-enum { FEW_CHANGES = 6 };
-
-// Prefetches the planes of the triangles that the first samples of the pixels show, if there are
-// many. The planes of small triangles are read once per tile, so they are seldom in the caches. The
-// fragments wait in their list until there is a batch, so the planes have time to come.
-VEC_INLINE void prefetch_planes(const SubBlock *sub) {
-    static const int32_t next[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0};
-    const int32_t *ids = (const int32_t *)sub->ids;
-    unsigned stay = 0; // the pixels that show no triangle or that of the next pixel
-    for (int v = 0; v < VECTORS; v++) {
-        const Vi held = vi_load(ids + v * DIP_LANES);
-        const Mask same = vi_eq(held, vi_lookup16(ids, vi_load(next + v * DIP_LANES)));
-        stay |= mask_bits(same | vi_eq(held, vi_splat(0))) << (v * DIP_LANES);
-    }
-    unsigned changes = ~stay & ALL_PIXELS;
-    if (__builtin_popcount(changes) <= FEW_CHANGES) {
-        return;
-    }
-    const DipShadingInput *input = &sub->shading->input;
-    const size_t size_bytes = (size_t)input->plane_stride * sizeof *input->planes;
-    for (; changes; changes &= changes - 1) {
-        const size_t triangle = (size_t)ids[__builtin_ctz(changes)] - 1;
-        const char *planes = (const char *)input->planes + triangle * size_bytes;
-        for (size_t b = 0; b < size_bytes; b += DIP_CACHE_LINE) {
-            __builtin_prefetch(planes + b);
-        }
-    }
-}
-
 // Collects sub-block number `quarter` of a block. grouped: it may hold triangles that were drawn in
 // sample groups. one_draw: all its pixels lie in the target and show `draw` alone. This is a
 // function of its own so that the loop over sub-blocks keeps its values in registers.
@@ -183,7 +191,7 @@ static __attribute__((noinline)) void collect_sub_block(DipTileShading *shading,
     const bool several =
         sub.sample_count > 1 && multi_fragment_pixels(ids, sub.sample_count, DIP_BLOCK_PIXELS);
     const bool within = sub.x0 + 4 <= shading->width && sub.y0 + 4 <= shading->height;
-    prefetch_planes(&sub);
+    prefetch_planes(&shading->input, ids);
     collect_shared(&sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(&sub));
 }
 
