@@ -172,6 +172,10 @@ static bool run_geometry(DipPipeline *pipeline, const DipPass *const *passes, in
         if (!dip_geometry_begin(&pipeline->geometry, passes, pass_count, pipeline->pool, err)) {
             return false;
         }
+        for (int w = 0; w < pipeline->worker_count; w++) {
+            pipeline->workers[w]->geometry.next_triangle = 0;
+            pipeline->workers[w]->geometry.triangle_end = 0;
+        }
         dip_pool_run(pipeline->pool, pipeline->geometry.job_count, run_job, pipeline);
     } while (dip_geometry_grow_after_overflow(&pipeline->geometry));
     return true;

@@ -104,11 +104,16 @@ static bool check_size(const DipPass *pass, const Needs *needs, DipError *err) {
                          INT32_MAX / needs->plane_stride);
 }
 
+// Arrays of at least this many bytes get huge pages, which save TLB misses. In smaller arrays, the
+// part of the last huge page that is not used would be a large share of the memory.
+enum { LARGE_ARRAY = 16 << 20 };
+
 // Frees an array and allocates it with a new length. Its content is lost.
 static bool replace(void *pointer_to_array, size_t count, size_t size) {
     void **array = pointer_to_array;
     dip_lines_free(*array);
-    *array = dip_lines_alloc(count * size);
+    const size_t size_bytes = count * size;
+    *array = size_bytes < LARGE_ARRAY ? dip_lines_alloc(size_bytes) : dip_pages_alloc(size_bytes);
     return *array != NULL;
 }
 

@@ -111,12 +111,16 @@ typedef struct DipGeometry {
 
 typedef struct DipKernels DipKernels;
 
-// Working memory that a worker needs to run a job.
+// Working memory that a worker needs to run jobs.
 typedef struct DipGeometryScratch {
     float clip[4][DIP_VERTEX_BATCH];
     float varying[DIP_MAX_VARYINGS][DIP_VERTEX_BATCH];
     DipScreenBatch screen;
     uint64_t occupied[DIP_BIN_WORDS];
+    // The space for triangles that the worker's jobs of this pass have taken and not used. Both
+    // must be 0 before its first job.
+    uint32_t next_triangle;
+    uint32_t triangle_end;
 } DipGeometryScratch;
 
 // Returns the number of tiles of the target.

@@ -147,7 +147,9 @@ static bool take_triangles(JobRun *run, uint32_t count) {
             run->job.overflowed = true;
             return false;
         }
-        run->next_triangle = first;
+        if (first != run->triangle_end) {
+            run->next_triangle = first; // otherwise the new run continues the old one
+        }
         run->triangle_end = first + DIP_TRIANGLE_RUN;
     }
     return true;
@@ -450,6 +452,8 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
         .scratch = scratch,
         .bins = geometry->bins + (size_t)job_index * bins,
         .target = setup_target(geometry),
+        .next_triangle = scratch->next_triangle,
+        .triangle_end = scratch->triangle_end,
         .job = *job,
     };
     memset(scratch->occupied, 0, words * sizeof *scratch->occupied);
@@ -474,5 +478,7 @@ void dip_geometry_run_job(DipGeometry *geometry, const DipKernels *kernels, int 
     for (size_t w = 0; w < words; w++) {
         geometry->occupied[w * DIP_MAX_JOBS + (size_t)job_index] = scratch->occupied[w];
     }
+    scratch->next_triangle = run.next_triangle;
+    scratch->triangle_end = run.triangle_end;
     *job = run.job;
 }
