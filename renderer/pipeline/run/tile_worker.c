@@ -426,8 +426,11 @@ bool dip_tile_worker_make_lists(DipTileWorker *worker, int draw_count) {
     // Memory that the system has cleared costs no pages for lists that are not used, but it is not
     // aligned.
     shading->list_memory = calloc(2 * count + 1, sizeof *shading->lists);
-    shading->lists = first_line(shading->list_memory);
-    shading->whole_lists = shading->lists + count;
+    shading->lists = shading->whole_lists = NULL;
+    if (shading->list_memory) {
+        shading->lists = first_line(shading->list_memory);
+        shading->whole_lists = shading->lists + count;
+    }
     shading->active = calloc(count, sizeof *shading->active);
     shading->is_active = calloc(count, sizeof *shading->is_active);
     return shading->list_memory && shading->active && shading->is_active;
