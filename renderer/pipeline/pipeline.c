@@ -148,6 +148,10 @@ static bool begin_pass(DipPipeline *pipeline, const DipPass *pass, const DipPass
     tile_pass->geometry = &pipeline->geometry;
     set_clear(tile_pass, pass->clear_lin);
     set_sample_groups(tile_pass, pass);
+    tile_pass->clips = false;
+    for (int d = 0; d < pass->draw_count; d++) {
+        tile_pass->clips |= pass->draws[d].clip_shader != NULL;
+    }
     begin_merge(pipeline, pass);
     begin_recording(pipeline);
     for (int w = 0; w < pipeline->worker_count; w++) {

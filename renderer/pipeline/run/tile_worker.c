@@ -138,6 +138,10 @@ void dip_tile_worker_end_clip(DipTileWorker *worker) {
 void dip_tile_worker_cover(DipTileWorker *worker, uint32_t index) {
     const DipTilePass *pass = worker->pass;
     const DipTriangle *triangle = &pass->geometry->triangles[index];
+    if (!pass->clips) {
+        pass->kernels->dip_kernel_draw_triangle(&worker->tile, triangle, index + 1, NULL);
+        return;
+    }
     const bool clipped = pass->pass->draws[triangle->draw].clip_shader != NULL;
     worker->tile_record.counters.clip_sample_groups +=
         clipped ? (uint64_t)sample_group_count(pass) : 0;

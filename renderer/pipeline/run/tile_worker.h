@@ -31,6 +31,7 @@ typedef struct DipTilePass {
     const float *srgb_light;    // linear light of the 256 8-bit sRGB values
     bool merged;                // the pass is merged (merge/merge_tile.h)
     bool merges_all;            // it merges even the tiles that no ordered draw reaches
+    bool clips;                 // some draw has a clip shader
     DipTileRecording recording; // where the tiles are recorded, or NULL
     DipMergePass merge;
 } DipTilePass;
