@@ -37,10 +37,18 @@ SIDES = {'ours': 'Diptych', 'peer': 'Mesa'}
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
+def frame_numbers(text):
+    numbers = [int(number) for number in text.split(',')]
+    if min(numbers) < 0:
+        raise ValueError
+    return numbers
+
+
 def parse_arguments():
-    parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
+    parser = argparse.ArgumentParser(usage='quality.py [OPTION]... (--help lists the options)',
+                                     add_help=False)
     parser.add_argument('--scenes', default='courtyard,atrium')
-    parser.add_argument('--starts', default='0,400,800')
+    parser.add_argument('--starts', type=frame_numbers, default=[0, 400, 800])
     parser.add_argument('--run', type=int, default=3)
     parser.add_argument('--size', default='640x480')
     parser.add_argument('--newest', type=pathlib.Path)
@@ -52,7 +60,7 @@ def parse_arguments():
         print(__doc__)
         sys.exit(0)
     if arguments.run < 2:
-        sys.exit('quality.py: --run: found less than 2, accepted is 2 or more')
+        parser.error(f'argument --run: found {arguments.run}, accepted is 2 or more')
     return arguments
 
 
@@ -82,9 +90,9 @@ def write_path(arguments, scene, file):
     """Writes a camera path whose keys are the poses of all frames."""
     own = [] if scene == 'courtyard' else ['--path', ROOT / f'build/scenes/{scene}.pth']
     lines = ['diptych-path 1', 'period 0.016666667']
-    for start in arguments.starts.split(','):
+    for start in arguments.starts:
         record = file.with_suffix('.json')
-        frames = f'{start}:{int(start) + arguments.run}:1'
+        frames = f'{start}:{start + arguments.run}:1'
         run([arguments.build / 'diptych', 'dump', '--json', record, '--frames', frames, '--size',
              '64x48', *model_arguments(scene), *own])
         for frame in json.loads(record.read_text())['frames']:
