@@ -216,7 +216,7 @@ static void begin_tile(DipTileWorker *worker, int index) {
     shading->input = (DipShadingInput){geometry->triangles, geometry->planes,
                                        geometry->plane_stride, tile->x0, tile->y0};
     shading->draws = pass->pass->draws;
-    shading->one_draw = pass->pass->draw_count == 1;
+    shading->single_draw = pass->pass->draw_count == 1;
     shading->groups = pass->groups;
     shading->groups_shade_all = pass->pass->groups_shade_all;
     shading->context = worker;

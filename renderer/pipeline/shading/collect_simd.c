@@ -57,7 +57,7 @@ static unsigned pixels_in_groups(const SubBlock *sub, const uint32_t *draws, uns
 }
 
 static void find_draws(const SubBlock *sub, uint32_t draws[DIP_SUB_BLOCK_PIXELS]) {
-    if (sub->shading->one_draw) {
+    if (sub->shading->single_draw) {
         memset(draws, 0, DIP_SUB_BLOCK_PIXELS * sizeof *draws);
         return;
     }
@@ -136,8 +136,7 @@ VEC_INLINE void prefetch_planes(const DipShadingInput *input, const uint32_t *su
 // Returns whether the first samples of a sub-block's pixels show the same draw, and sets *draw to
 // it. If the pass has several draws, the function finds this out only if they show a few triangles.
 VEC_INLINE bool shows_one_draw(const DipTileShading *shading, const uint32_t *ids, uint32_t *draw) {
-    if (shading->one_draw) {
-        prefetch_planes(&shading->input, ids);
+    if (shading->single_draw) {
         *draw = 0;
         return !pixels_with(ids, 0);
     }
@@ -191,7 +190,6 @@ static __attribute__((noinline)) void collect_sub_block(DipTileShading *shading,
     const bool several =
         sub.sample_count > 1 && multi_fragment_pixels(ids, sub.sample_count, DIP_BLOCK_PIXELS);
     const bool within = sub.x0 + 4 <= shading->width && sub.y0 + 4 <= shading->height;
-    prefetch_planes(&shading->input, ids);
     collect_shared(&sub, several, grouped, within ? ALL_PIXELS : pixels_in_target(&sub));
 }
 
@@ -212,10 +210,11 @@ VEC_INLINE void collect_block(DipTileShading *shading, int block, bool grouped) 
             !(sample_count > 1 && multi_fragment_pixels(ids, sample_count, DIP_BLOCK_PIXELS)) &&
             shows_one_draw(shading, ids, &draw);
         shading->samples += one_draw ? DIP_SUB_BLOCK_PIXELS * (unsigned)sample_count : 0;
+        if (!one_draw || shading->single_draw) {
+            prefetch_planes(&shading->input, ids);
+        }
         if (one_draw && !shares(shading)) {
-            const int32_t centre =
-                (y * DIP_TILE + x) | 128 << DIP_POSITION_SUB_X | 128 << DIP_POSITION_SUB_Y;
-            push_whole(shading, ids, centre, draw);
+            push_whole(shading, ids, position_at(x, y, 128, 128), draw);
         } else {
             collect_sub_block(shading, ids, block, quarter, grouped, one_draw, draw);
         }

@@ -16,9 +16,15 @@ static inline void activate(DipTileShading *shading, uint32_t draw) {
     }
 }
 
+// Returns a fragment's position (raster/fragments.h). x, y: the pixel in the tile; sub_x, sub_y:
+// the shaded point in the pixel, in 1/256 pixel.
+VEC_INLINE int32_t position_at(int x, int y, int sub_x, int sub_y) {
+    return (y * DIP_TILE + x) | sub_x << DIP_POSITION_SUB_X | sub_y << DIP_POSITION_SUB_Y;
+}
+
+// Does so for the first pixel of a sub-block.
 VEC_INLINE int32_t position_of(const SubBlock *sub, int sub_x, int sub_y) {
-    return (sub->y0 * DIP_TILE + sub->x0) | sub_x << DIP_POSITION_SUB_X |
-           sub_y << DIP_POSITION_SUB_Y;
+    return position_at(sub->x0, sub->y0, sub_x, sub_y);
 }
 
 // Adds a sub-block in which all 16 pixels show the same draw, and each pixel shows one patch. Its

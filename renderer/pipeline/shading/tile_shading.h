@@ -56,7 +56,7 @@ struct DipTileShading {
     DipTile *tile;
     DipShadingInput input;
     const DipDraw *draws;
-    bool one_draw;                 // there is only one draw
+    bool single_draw;              // the pass has only one draw
     const DipSampleGroups *groups; // sample groups of alpha-clipped draws; NULL: one group
     bool groups_shade_all;         // all draws have these groups
     DipFlushList *flush;           // called when one of `lists` holds a batch
